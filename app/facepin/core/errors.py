@@ -1,0 +1,9 @@
+"""The one error that is meant for the person at the screen."""
+
+
+class FacepinError(Exception):
+    """Says in one line what is wrong, where, what was found and what is allowed.
+
+    Everything a user can cause (a bad file, a bad option, a missing display) is raised as this; the command line
+    prints it and exits with 2, the window shows it in the status line.  Anything else is a bug.
+    """

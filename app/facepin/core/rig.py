@@ -1,0 +1,112 @@
+"""The rig: a neutral face and the deltas of its shapes, as one immutable value."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from facepin.core.arrays import Floats, Indices, Points
+
+
+@dataclass(frozen=True)
+class Part:
+    """A named piece of the mesh (skin, left eye, teeth): one run of faces, hence of triangles."""
+
+    name: str
+    faces: range
+    triangles: range
+    colour: tuple[float, float, float] | None = None
+    """Base colour, sRGB 0..1, or None where the file gives none."""
+    roughness: float = 0.55
+    """0 (mirror) .. 1 (chalk)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """A blendshape face: f = neutral + B w (Eq. 1 and 2 of the paper in delta form).
+
+    Build one with `facepin.core.rig_builder.build_rig`, which checks everything stated here.
+    """
+
+    name: str
+    neutral: Points
+    """(n, 3) float32, rest positions f0."""
+    deltas: csc_array
+    """(3n, k) float32, the paper's B: column j is shape j minus neutral, row 3 v + c is coordinate c of vertex v.
+    Indices sorted, exact zeros dropped."""
+    shape_names: tuple[str, ...]
+    """k names, unique and printable."""
+    corners: Indices
+    """(sum of face_sizes,) int32, vertex index of every face corner, face after face."""
+    face_sizes: Indices
+    """(m,) int32, corners per face (3 or more)."""
+    triangles: Indices
+    """(t, 3) int32, the faces cut into fans, in face order."""
+    parts: tuple[Part, ...]
+    """One or more, covering all faces in order."""
+    limits: Floats
+    """(k, 2) lowest and highest weight of each shape, 0..1 unless the file says otherwise."""
+    rest_weights: Floats
+    """(k,) weights the file itself asks for, mostly zeros."""
+    colours: Points | None = None
+    """(n, 3) float32 sRGB 0..1 vertex colours, or None."""
+    warnings: tuple[str, ...] = ()
+    """What the reader had to mend or leave out, one line each."""
+    source: Path | None = None
+
+    @property
+    def vertex_count(self) -> int:
+        """Number of vertices n."""
+        return len(self.neutral)
+
+    @property
+    def shape_count(self) -> int:
+        """Number of shapes k."""
+        return len(self.shape_names)
+
+    @cached_property
+    def height(self) -> float:
+        """Extent of the neutral along y (the face height that percentages refer to), never zero."""
+        extent = np.ptp(self.neutral, axis=0)
+        return float(extent[1] if extent[1] > 0 else max(extent.max(), 1.0))
+
+    @cached_property
+    def largest_moves(self) -> Floats:
+        """(k,) length of the largest vertex move of each shape at weight 1."""
+        columns = self.deltas
+        squared = np.zeros(self.shape_count)
+        for j in range(self.shape_count):
+            run = slice(columns.indptr[j], columns.indptr[j + 1])
+            moves = np.bincount(columns.indices[run] // 3, columns.data[run].astype(np.float64) ** 2)
+            squared[j] = moves.max(initial=0.0)
+        return np.sqrt(squared)
+
+    @cached_property
+    def scale(self) -> float:
+        """Mean over shapes of the squared largest vertex move: the unit of the relative strengths of solvers."""
+        return float(np.mean(self.largest_moves**2)) if self.shape_count else 0.0
+
+    def evaluate(self, weights: Floats) -> Points:
+        """Posed positions f0 + B w, (n, 3) float32, computed from scratch (see `deform` for the drag path)."""
+        active = np.flatnonzero(weights)
+        moved = self.deltas[:, active] @ np.asarray(weights, np.float32)[active]
+        positions: Points = self.neutral + moved.reshape(-1, 3)
+        return positions
+
+    def rows_at(self, vertices: Sequence[int]) -> Floats:
+        """Rows of B at `vertices`, (3p, k) float64: x, y, z of the first vertex, then of the next (Eq. 7)."""
+        deltas = self.deltas
+        rows = np.zeros((3 * len(vertices), self.shape_count))
+        wanted = 3 * np.asarray(vertices, np.int64)[:, None] + np.arange(3)
+        wanted = wanted.ravel()
+        for j in range(self.shape_count):
+            start, stop = deltas.indptr[j], deltas.indptr[j + 1]
+            if start == stop:
+                continue
+            at = start + np.searchsorted(deltas.indices[start:stop], wanted)
+            at = np.minimum(at, stop - 1)
+            rows[:, j] = np.where(deltas.indices[at] == wanted, deltas.data[at], 0.0)
+        return rows

@@ -1,0 +1,79 @@
+"""What every solver takes and returns.  Arrays in, arrays out: no rig, no mesh, no window."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PinSystem:
+    """The part of the problem that stays the same during a drag."""
+
+    rows: Floats
+    """Pin rows J, (r, k)."""
+    limits: Floats
+    """(k, 2) lowest and highest weight of each shape."""
+    scale: float = 1.0
+    """Mean over shapes of the squared largest vertex move of the rig: the unit of relative strengths."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Weights, and what the solver can say about how it found them."""
+
+    weights: Floats
+    """(k,)"""
+    notes: Mapping[str, float] = field(default_factory=dict)
+    """Figures worth showing, by name: gamma, step, iterations, optimality."""
+
+
+Solve = Callable[[Floats, Floats], Solution]
+"""(displacement d (r,), start w0 (k,)) -> Solution.  Called once per drag frame."""
+
+
+@dataclass(frozen=True)
+class SolverKind:
+    """One entry of the registry."""
+
+    key: str
+    title: str
+    summary: str
+    """One sentence for the animator."""
+    settings: type
+    """A frozen dataclass whose fields are made with `setting`."""
+    prepare: Callable[[PinSystem, Any], Solve]
+    """Does the work that needs J only (a factorisation), so that a drag frame does the rest."""
+    obeys_limits: bool = False
+
+
+def setting(
+    default: Any,
+    help: str,
+    *,
+    low: float | None = None,
+    high: float | None = None,
+    log: bool = False,
+    choices: tuple[str, ...] = (),
+) -> Any:
+    """Declare one field of a settings class, with what a panel or a command line needs to offer it.
+
+    Parameters
+    ----------
+    default : float, int, bool or str
+        Its type is the setting's type.
+    help : str
+        One sentence saying what it does to the face.
+    low, high : float
+        Allowed range of a number, both included.
+    log : bool
+        The range is best shown on a logarithmic scale.
+    choices : tuple of str
+        Allowed words.
+    """
+    metadata = {"help": help, "low": low, "high": high, "log": log, "choices": choices}
+    return field(default=default, metadata=metadata)

@@ -1,0 +1,150 @@
+"""One open rig being posed: its poses, the undo history, and the solving of every edit."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from facepin.core.errors import FacepinError
+from facepin.core.pose import Pose, rest_pose
+from facepin.core.rig import Rig
+from facepin.session.edit import Edit
+from facepin.session.history import History
+from facepin.session.solving import PinSolver, Solved, SolverChoice, snapped
+
+Poses = tuple[Pose, ...]
+"""One pose per pane; they share their pins."""
+
+
+@dataclass(frozen=True, eq=False)
+class Work:
+    """What undo brings back: the poses of all panes, and where their last drag began."""
+
+    poses: Poses
+    began: Poses | None = None
+    """The poses before the drag that led here, so that another solver can be asked for the same drag."""
+
+
+class Session:
+    """Applies edits to the poses of one rig.
+
+    Everything it hands out is a frozen value, so `is` tells whether something changed.
+    """
+
+    def __init__(self, rig: Rig, choices: Sequence[SolverChoice], pose: Pose | None = None) -> None:
+        self.rig = rig
+        self.active = 0
+        """Index of the pane whose weights the panels show and edit."""
+        self.message = ""
+        """Why the last edit could not be carried out as asked; empty when it could."""
+        self._solvers = [PinSolver(rig, choice) for choice in choices]
+        self._history = History(Work((pose or rest_pose(rig),) * len(self._solvers)))
+        self._preview: Work | None = None
+        self.solved: list[Solved | None] = [None] * len(self._solvers)
+        """The last answer of each pane's solver."""
+
+    @property
+    def poses(self) -> Poses:
+        """The poses as they are shown now, one per pane."""
+        return self._work.poses
+
+    @property
+    def pose(self) -> Pose:
+        """The pose of the active pane as it is shown now."""
+        return self.poses[self.active]
+
+    @property
+    def choices(self) -> tuple[SolverChoice, ...]:
+        """Solver and settings of each pane."""
+        return tuple(solver.choice for solver in self._solvers)
+
+    @property
+    def in_gesture(self) -> bool:
+        """Whether an edit is being shown that is not an undo step yet."""
+        return self._preview is not None
+
+    @property
+    def committed(self) -> Work:
+        """The work at the last undo step; its identity tells whether anything is unsaved."""
+        return self._history.current
+
+    @property
+    def undo_label(self) -> str | None:
+        """What undo would take back, or None."""
+        return self._history.undo_label
+
+    @property
+    def redo_label(self) -> str | None:
+        """What redo would bring back, or None."""
+        return self._history.redo_label
+
+    def apply(self, edit: Edit) -> None:
+        """Show an edit, and make it an undo step when it is final.
+
+        A solver that fails leaves the last good poses in place and says so in `message`.
+        """
+        self.message = ""
+        before = self._history.current
+        try:
+            work = self._edited(before, edit)
+        except FacepinError as error:
+            self.message = str(error)
+            work = self._work
+        self._preview = work
+        if edit.final:
+            self._preview = None
+            if work is not before:
+                self._history.commit(edit.label, work)
+
+    def cancel(self) -> None:
+        """Drop the gesture in progress; the poses are exactly those before it."""
+        self._preview = None
+
+    def undo(self) -> bool:
+        """Take the last undo step back; False when there is none."""
+        self._preview = None
+        return self._history.undo()
+
+    def redo(self) -> bool:
+        """Bring the last undone step back; False when there is none."""
+        self._preview = None
+        return self._history.redo()
+
+    def choose_solver(self, pane: int, choice: SolverChoice) -> None:
+        """Give a pane another solver or other settings.
+
+        If the last step was a drag, it is solved again from where it began, so that the difference is seen at once.
+        """
+        self._solvers[pane] = PinSolver(self.rig, choice)
+        self.solved[pane] = None
+        work = self._history.current
+        if work.began is None:
+            return
+        self.message = ""
+        try:
+            pose = self._solve(pane, work.began[pane].with_pins(work.poses[pane].pins))
+        except FacepinError as error:
+            self.message = str(error)
+            return
+        poses = (*work.poses[:pane], pose, *work.poses[pane + 1 :])
+        self._history.commit(f"Solve with {choice.kind.title}", replace(work, poses=poses))
+
+    @property
+    def _work(self) -> Work:
+        return self._preview or self._history.current
+
+    def _edited(self, before: Work, edit: Edit) -> Work:
+        """Return the work after an edit of `before`."""
+        if edit.weights is not None:
+            pose = snapped(self.rig, before.poses[self.active].with_weights(edit.weights))
+            return Work((*before.poses[: self.active], pose, *before.poses[self.active + 1 :]))
+        if edit.pins is None:
+            raise ValueError("an edit changes pins or weights")
+        moved = tuple(pose.with_pins(edit.pins) for pose in before.poses)
+        if not edit.solve:
+            return Work(moved)
+        return Work(tuple(self._solve(i, pose) for i, pose in enumerate(moved)), before.poses)
+
+    def _solve(self, pane: int, pose: Pose) -> Pose:
+        """Return the pose with its weights carried towards its pins, starting from its own weights."""
+        solved = self._solvers[pane].solve(pose.pins, pose.weights)
+        self.solved[pane] = solved
+        return pose.with_weights(solved.weights)

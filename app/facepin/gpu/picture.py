@@ -1,0 +1,150 @@
+"""Pictures without a window."""
+
+import io
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from facepin.core.arrays import Points
+from facepin.core.camera import Camera, Viewport
+from facepin.core.errors import FacepinError
+from facepin.core.rig import Rig
+from facepin.gpu.canvas import Canvas
+from facepin.gpu.framing import frame, tile
+from facepin.gpu.scene import PaneMesh, Scene
+
+Image = NDArray[np.uint8]
+
+TILE = 2048
+"""Largest width and height drawn at once: under every limit, and it bounds the memory of many samples."""
+
+
+def open_context() -> moderngl.Context:
+    """Open an OpenGL 3.3 core context without a window: EGL, else what the system offers.
+
+    Raises
+    ------
+    FacepinError
+        When there is neither, with what the system said.
+    """
+    complaints = []
+    for backend in ("egl", "default"):
+        choice: dict[str, Any] = {} if backend == "default" else {"backend": backend}
+        try:
+            return moderngl.create_context(require=330, standalone=True, **choice)
+        except Exception as error:  # the very class that moderngl and glcontext raise
+            complaints.append(f"{backend}: {' '.join(str(error).split())}")
+    raise FacepinError(f"no OpenGL 3.3 on this machine ({'; '.join(complaints)}); pictures need it")
+
+
+def render_picture(
+    ctx: moderngl.Context,
+    rig: Rig,
+    positions: Points,
+    normals: Points,
+    camera: Camera,
+    size: tuple[int, int],
+    *,
+    transparent: bool = False,
+    samples: int = 4,
+    supersampling: int = 1,
+) -> Image:
+    """Draw one picture of a posed face.
+
+    Parameters
+    ----------
+    positions, normals : (n, 3) float32
+        The pose.
+    size : (int, int)
+        Width and height in pixels, any: large pictures are drawn in tiles.
+    transparent : bool
+        Leave out the background; straight (not premultiplied) alpha.
+    samples : int
+        Multisampling, as far as the machine goes.
+    supersampling : int
+        Draw this many times larger in both directions and average.
+
+    Returns
+    -------
+    (h, w, 4) uint8
+        RGBA, first row on top.
+
+    Raises
+    ------
+    FacepinError
+        For a size or factor below 1.
+    """
+    width, height = size
+    if min(width, height, supersampling) < 1:
+        raise FacepinError(
+            f"a picture of {width}x{height} times {supersampling} cannot be drawn (at least 1x1)"
+        )
+    scene = Scene(ctx, rig)
+    mesh = PaneMesh(scene)
+    try:
+        mesh.upload(positions, normals)
+        return draw_picture(
+            mesh, camera, size, transparent=transparent, samples=samples, supersampling=supersampling
+        )
+    finally:
+        mesh.release()
+        scene.release()
+
+
+def draw_picture(
+    mesh: PaneMesh,
+    camera: Camera,
+    size: tuple[int, int],
+    *,
+    transparent: bool = False,
+    samples: int = 4,
+    supersampling: int = 1,
+) -> Image:
+    """Draw like `render_picture`, for a mesh that is on the graphics card already."""
+    factor = supersampling
+    width, height = size
+    whole = frame(camera, Viewport(0, 0, width * factor, height * factor), height * factor)
+    step = max(TILE // factor, 1)
+    picture = np.zeros((height, width, 4), np.uint8)
+    canvas = Canvas(mesh.scene.ctx, samples)
+    try:
+        for y in range(0, height, step):
+            for x in range(0, width, step):
+                w, h = min(step, width - x), min(step, height - y)
+                canvas.resize(w * factor, h * factor)
+                framing = tile(whole, x * factor, y * factor, w * factor, h * factor)
+                mesh.draw_framed(canvas.framebuffer, framing, background=not transparent)
+                picture[height - y - h : height - y, x : x + w] = _averaged(canvas.read(), factor)
+    finally:
+        canvas.release()
+    return _straight_alpha(picture) if transparent else picture
+
+
+def png_bytes(image: Image) -> bytes:
+    """Return a (h, w, 4) or (h, w, 3) uint8 picture as a PNG file; an opaque one is stored as RGB."""
+    from PIL import Image as Pillow
+
+    if image.shape[2] == 4 and (image[..., 3] == 255).all():
+        image = image[..., :3]
+    file = io.BytesIO()
+    Pillow.fromarray(np.ascontiguousarray(image)).save(file, "PNG")
+    return file.getvalue()
+
+
+def _averaged(image: Image, factor: int) -> Image:
+    """Mean of blocks of factor x factor pixels, premultiplied as drawn."""
+    if factor == 1:
+        return image
+    h, w = image.shape[0] // factor, image.shape[1] // factor
+    blocks: NDArray[Any] = image.reshape(h, factor, w, factor, 4)
+    mean: Image = np.rint(blocks.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
+    return mean
+
+
+def _straight_alpha(image: Image) -> Image:
+    """Divide by alpha: over transparent black, the samples of a pixel average to colour times alpha."""
+    alpha = image[..., 3:].astype(np.float32)
+    colour = np.minimum(np.rint(image[..., :3] * (255 / np.maximum(alpha, 1))), 255)
+    return np.concatenate([colour.astype(np.uint8), image[..., 3:]], axis=2)

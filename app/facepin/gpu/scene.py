@@ -1,0 +1,189 @@
+"""A rig on the graphics card, and the panes that show it in different poses."""
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from facepin.core.arrays import Points
+from facepin.core.camera import Camera, Viewport
+from facepin.core.rig import Rig
+from facepin.gpu.framing import Framing, column_major, frame
+from facepin.gpu.programs import load_program
+
+CLAY = (0.70, 0.66, 0.63)
+"""Base colour, sRGB, of what has no colour of its own."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """Neighbouring triangles that look the same and are drawn in one call."""
+
+    first: int
+    """Index of the first corner in the index buffer."""
+    count: int
+    tint: tuple[float, float, float]
+    """Linear colour that multiplies the vertex colours."""
+    roughness: float
+    one_sided: bool
+    """Its back is never seen, so that triangles facing away can be left out."""
+
+
+class Scene:
+    """What all panes of one rig share: programs, triangles, colours and materials."""
+
+    def __init__(self, ctx: moderngl.Context, rig: Rig) -> None:
+        self.ctx = ctx
+        self.rig = rig
+        self.mesh_program = load_program(ctx, "mesh")
+        self.runs = material_runs(rig)
+        self.indices = ctx.buffer(np.ascontiguousarray(rig.triangles, np.int32))
+        self.albedo = ctx.buffer(vertex_albedo(rig))
+        self._background_program = load_program(ctx, "background")
+        self._background = ctx.vertex_array(self._background_program, [])
+
+    def draw_background(self, framing: Framing) -> None:
+        """Fill what is still empty; `framing` is in use already."""
+        self._background_program["ray_of_pixel"] = framing.ray_of_pixel
+        self._background_program["half_picture"] = framing.half_picture
+        self.ctx.enable_only(moderngl.DEPTH_TEST)
+        self.ctx.depth_func = "<="
+        self._background.render(moderngl.TRIANGLES, vertices=3)
+
+    def release(self) -> None:
+        """Give the graphics memory back."""
+        for item in (
+            self.indices,
+            self.albedo,
+            self._background,
+            self._background_program,
+            self.mesh_program,
+        ):
+            item.release()
+
+
+class PaneMesh:
+    """One pose of a scene's rig: positions and normals on the graphics card."""
+
+    def __init__(self, scene: Scene) -> None:
+        size = 12 * scene.rig.vertex_count
+        self.scene = scene
+        self._positions = scene.ctx.buffer(reserve=size, dynamic=True)
+        self._normals = scene.ctx.buffer(reserve=size, dynamic=True)
+        self._uploaded: tuple[Points, Points] | None = None
+        self._mesh = scene.ctx.vertex_array(
+            scene.mesh_program,
+            [
+                (self._positions, "3f", "position"),
+                (self._normals, "3f", "normal"),
+                (scene.albedo, "4f2", "albedo"),
+            ],
+            scene.indices,
+        )
+
+    def upload(self, positions: Points, normals: Points) -> bool:
+        """Take over a pose; do nothing when these very arrays are there already.
+
+        Parameters
+        ----------
+        positions, normals : (n, 3) float32
+            Never changed afterwards by the caller; normals have any length.
+
+        Returns
+        -------
+        bool
+            Whether anything was sent.
+        """
+        sent = self._uploaded
+        if sent is not None and sent[0] is positions and sent[1] is normals:
+            return False
+        self._positions.write(np.ascontiguousarray(positions, np.float32))
+        self._normals.write(np.ascontiguousarray(normals, np.float32))
+        self._uploaded = positions, normals
+        return True
+
+    def draw(
+        self,
+        framebuffer: moderngl.Framebuffer,
+        viewport: Viewport,
+        camera: Camera,
+        *,
+        background: bool = True,
+    ) -> None:
+        """Draw background and face into a rectangle of `framebuffer`, erasing what was there.
+
+        Parameters
+        ----------
+        framebuffer : moderngl.Framebuffer
+            With colour and depth, multisampled or not.
+        viewport : Viewport
+            Where the picture goes.
+        camera : Camera
+            Sees the face.
+        background : bool
+            Draw the studio wall; otherwise what is not the face stays transparent black.
+        """
+        framing = frame(camera, viewport, framebuffer.height)
+        self.draw_framed(framebuffer, framing, background=background)
+
+    def draw_framed(self, framebuffer: moderngl.Framebuffer, framing: Framing, *, background: bool) -> None:
+        """Draw like `draw`, for a framing that may be a tile of a larger picture."""
+        ctx, program = self.scene.ctx, self.scene.mesh_program
+        framing.use(framebuffer)
+        framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=framing.rectangle)
+        program["to_view"] = column_major(framing.to_view)
+        program["to_clip"] = column_major(framing.to_clip)
+        program["ray_of_pixel"] = framing.ray_of_pixel
+        program["sky"] = tuple(framing.to_view[:3, 1])
+        ctx.depth_func = "<"
+        ctx.cull_face = "back"
+        ctx.front_face = "ccw"
+        for run in self.scene.runs:
+            culling = moderngl.CULL_FACE if run.one_sided else moderngl.NOTHING
+            ctx.enable_only(moderngl.DEPTH_TEST | culling)
+            program["tint"] = run.tint
+            program["roughness"] = run.roughness
+            self._mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
+        if background:
+            self.scene.draw_background(framing)
+
+    def release(self) -> None:
+        """Give the graphics memory back."""
+        for item in (self._mesh, self._positions, self._normals):
+            item.release()
+
+
+def linear(srgb: Points) -> Points:
+    """Return linear light (..., 3) float32 of sRGB colours 0..1 (IEC 61966-2-1)."""
+    srgb = np.clip(np.asarray(srgb, np.float32), 0, 1)
+    light: Points = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(
+        np.float32
+    )
+    return light
+
+
+def vertex_albedo(rig: Rig) -> "np.ndarray[tuple[int, int], np.dtype[np.float16]]":
+    """Linear vertex colours, white where the rig has none, and openness 1: (n, 4) float16."""
+    albedo = np.ones((rig.vertex_count, 4), np.float16)
+    if rig.colours is not None:
+        albedo[:, :3] = linear(rig.colours)
+    return albedo
+
+
+def material_runs(rig: Rig) -> tuple[Run, ...]:
+    """Cut the index buffer into runs of one look, in part order."""
+    runs: list[Run] = []
+    for part in rig.parts:
+        colour = (1.0, 1.0, 1.0) if rig.colours is not None else part.colour or CLAY
+        r, g, b = (float(c) for c in linear(np.array(colour, np.float32)))
+        first, count = 3 * part.triangles.start, 3 * len(part.triangles)
+        run = Run(first, count, (r, g, b), part.roughness, one_sided=False)
+        if runs and (runs[-1].tint, runs[-1].roughness, runs[-1].one_sided) == (
+            run.tint,
+            run.roughness,
+            run.one_sided,
+        ):
+            last = runs.pop()
+            run = Run(last.first, last.count + run.count, run.tint, run.roughness, run.one_sided)
+        runs.append(run)
+    return tuple(runs)

@@ -1,6 +1,7 @@
 """A rig on the graphics card, and the panes that show it in different poses."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import moderngl
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.rig import Rig
+from facepin.core.topology import DrawRun, draw_order
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.programs import load_program
 
@@ -25,8 +27,8 @@ class Run:
     tint: tuple[float, float, float]
     """Linear colour that multiplies the vertex colours."""
     roughness: float
-    one_sided: bool
-    """Its back is never seen, so that triangles facing away can be left out."""
+    hidden: Literal["back", "front"] | None
+    """The side that is never seen, so that triangles showing it are left out."""
 
 
 class Scene:
@@ -36,8 +38,9 @@ class Scene:
         self.ctx = ctx
         self.rig = rig
         self.mesh_program = load_program(ctx, "mesh")
-        self.runs = material_runs(rig)
-        self.indices = ctx.buffer(np.ascontiguousarray(rig.triangles, np.int32))
+        order = draw_order(rig)
+        self.runs = material_runs(rig, order.runs)
+        self.indices = ctx.buffer(order.triangles)
         self.albedo = ctx.buffer(vertex_albedo(rig))
         self._background_program = load_program(ctx, "background")
         self._background = ctx.vertex_array(self._background_program, [])
@@ -136,11 +139,13 @@ class PaneMesh:
         program["ray_of_pixel"] = framing.ray_of_pixel
         program["sky"] = tuple(framing.to_view[:3, 1])
         ctx.depth_func = "<"
-        ctx.cull_face = "back"
         ctx.front_face = "ccw"
         for run in self.scene.runs:
-            culling = moderngl.CULL_FACE if run.one_sided else moderngl.NOTHING
-            ctx.enable_only(moderngl.DEPTH_TEST | culling)
+            if run.hidden is None:
+                ctx.enable_only(moderngl.DEPTH_TEST)
+            else:
+                ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+                ctx.cull_face = run.hidden
             program["tint"] = run.tint
             program["roughness"] = run.roughness
             self._mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
@@ -170,20 +175,17 @@ def vertex_albedo(rig: Rig) -> "np.ndarray[tuple[int, int], np.dtype[np.float16]
     return albedo
 
 
-def material_runs(rig: Rig) -> tuple[Run, ...]:
-    """Cut the index buffer into runs of one look, in part order."""
+def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
+    """Join the runs of a draw order that look the same, so that a face of many parts needs few calls."""
     runs: list[Run] = []
-    for part in rig.parts:
+    for piece in order:
+        part = rig.parts[piece.part]
         colour = (1.0, 1.0, 1.0) if rig.colours is not None else part.colour or CLAY
         r, g, b = (float(c) for c in linear(np.array(colour, np.float32)))
-        first, count = 3 * part.triangles.start, 3 * len(part.triangles)
-        run = Run(first, count, (r, g, b), part.roughness, one_sided=False)
-        if runs and (runs[-1].tint, runs[-1].roughness, runs[-1].one_sided) == (
-            run.tint,
-            run.roughness,
-            run.one_sided,
-        ):
-            last = runs.pop()
-            run = Run(last.first, last.count + run.count, run.tint, run.roughness, run.one_sided)
+        first, count = 3 * piece.triangles.start, 3 * len(piece.triangles)
+        run = Run(first, count, (r, g, b), part.roughness, piece.hidden)
+        if runs and replace(runs[-1], first=first, count=count) == run:
+            before = runs.pop()
+            run = replace(run, first=before.first, count=before.count + count)
         runs.append(run)
     return tuple(runs)

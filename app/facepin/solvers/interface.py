@@ -12,10 +12,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class PinSystem:
-    """The part of the problem that stays the same during a drag."""
+    """The part of the problem that stays the same during a drag.  All entries are finite."""
 
     rows: Floats
-    """Pin rows J, (r, k)."""
+    """Pin rows J, (r, k); both may be 0."""
     limits: Floats
     """(k, 2) lowest and highest weight of each shape."""
     scale: float = 1.0
@@ -59,6 +59,7 @@ def setting(
     high: float | None = None,
     log: bool = False,
     choices: tuple[str, ...] = (),
+    when: tuple[str, Any] | None = None,
 ) -> Any:
     """Declare one field of a settings class, with what a panel or a command line needs to offer it.
 
@@ -74,6 +75,8 @@ def setting(
         The range is best shown on a logarithmic scale.
     choices : tuple of str
         Allowed words.
+    when : (str, value)
+        The setting has an effect only while another one has this value, e.g. ``("automatic", False)``.
     """
-    metadata = {"help": help, "low": low, "high": high, "log": log, "choices": choices}
+    metadata = {"help": help, "low": low, "high": high, "log": log, "choices": choices, "when": when}
     return field(default=default, metadata=metadata)

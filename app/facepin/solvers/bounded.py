@@ -1,0 +1,43 @@
+"""Least squares within the limits of the shapes, held near the start."""
+
+from dataclasses import dataclass
+
+from facepin.solvers.boxed import prepare_boxed
+from facepin.solvers.interface import Floats, PinSystem, Solution, Solve, SolverKind, setting
+
+
+@dataclass(frozen=True)
+class BoundedSettings:
+    """The strength of the regularisation."""
+
+    alpha: float = setting(
+        0.01,
+        "Holds the weights near where they were: more is calmer, less is exact.",
+        low=1e-6,
+        high=10.0,
+        log=True,
+    )
+
+
+def prepare(system: PinSystem, settings: BoundedSettings) -> Solve:
+    """w = argmin ½‖J w - d‖² + ½ α ‖w - w0‖² with l ≤ w ≤ u; α in units of `system.scale`.
+
+    Notes: `steps` of the active-set method, and `optimality` (see `facepin.solvers.boxed.Minimum`).
+    """
+    minimise = prepare_boxed(system, settings.alpha * system.scale, 0.0)
+
+    def solve(displacement: Floats, start: Floats) -> Solution:
+        found = minimise(displacement, start, start)
+        return Solution(found.weights, {"steps": float(found.steps), "optimality": found.optimality})
+
+    return solve
+
+
+KIND = SolverKind(
+    key="bounded",
+    title="Bounded",
+    summary="As near to the pins as the shapes allow without ever leaving their limits.",
+    settings=BoundedSettings,
+    prepare=prepare,
+    obeys_limits=True,
+)

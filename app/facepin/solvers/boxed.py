@@ -1,0 +1,164 @@
+"""Exact least squares within limits, with an optional price on weights that differ from a centre.
+
+Minimises  ½‖J w - d‖² + ½ α ‖w - w0‖² + λ Σ |w - c|  over  l ≤ w ≤ u,  with α > 0.
+
+An active-set method.  Every weight either rests against a wall of its current linear piece (a limit, or the
+kink at its centre) or is free; the free ones are solved for together, and weights leave a wall when the
+objective falls that way.  It falls with every step and there are finitely many faces, so the search ends at the
+minimum up to rounding.  The problem being strictly convex, there is one minimum: where the search began does
+not show in it.  From the last frame's answer it takes a step or two, where projected gradients take hundreds.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from facepin.solvers.interface import Floats, PinSystem
+
+TOLERANCE = 1e-9
+"""Stop when no weight would move further than this if it were optimised alone."""
+MOST_STEPS = 500
+BOLD_STEPS = 50
+"""Steps that may run into several walls at once; then come careful ones, which cannot go on for ever."""
+SMALLEST_RIDGE = 1e-10
+"""Least α, as a share of the largest squared column of J: keeps the problem convex despite rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Minimum:
+    """What the search found."""
+
+    weights: Floats
+    """(k,)"""
+    steps: int
+    optimality: float
+    """Largest move any one weight would still make if it were optimised alone; at most `TOLERANCE` unless the
+    search ran out of steps."""
+
+
+Minimise = Callable[[Floats, Floats, Floats], Minimum]
+"""(displacement d (r,), start w0 (k,), centre c (k,)) -> minimum."""
+
+
+def prepare_boxed(system: PinSystem, ridge: float, price: float) -> Minimise:
+    """Prepare the minimisation for α = `ridge` and λ = `price`, both ≥ 0 in squared length units.
+
+    Shapes that move no pin are not part of it: they keep their start, whatever they cost.  A weight that starts
+    outside its limits may stay there: nothing is clipped behind the user's back.
+    """
+    seen = np.flatnonzero(system.rows.any(axis=0))
+    rows = np.ascontiguousarray(system.rows[:, seen])
+    lowest, highest = system.limits[seen].T.copy()
+    squares = np.einsum("ij,ij->j", rows, rows)
+    ridge = max(ridge, SMALLEST_RIDGE * float(squares.max(initial=0.0)))
+    face = _Face(rows, ridge)
+    own = squares + ridge
+    last: Floats | None = None
+
+    def minimise(displacement: Floats, start: Floats, centre: Floats) -> Minimum:
+        nonlocal last
+        weights, origin = start.copy(), start[seen]
+        low, high = np.minimum(lowest, origin), np.maximum(highest, origin)
+        begin = origin if last is None else np.minimum(np.maximum(last, low), high)
+        kink = np.clip(centre[seen], low, high) if price > 0 else low
+        steps = 0
+        while True:
+            missing = rows @ begin - displacement
+            gradient = missing @ rows + ridge * (begin - origin)
+            piece = _choose_piece(begin, gradient, price, kink, low, high, TOLERANCE * own)
+            if piece.settled or steps == MOST_STEPS:
+                break
+            begin = face.step(begin, piece, bold=steps < BOLD_STEPS)
+            steps += 1
+        last = weights[seen] = begin
+        return Minimum(weights, steps, float(np.max(piece.urge / own, initial=0.0)))
+
+    return minimise
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """The linear piece on which each weight may move in one step, all (k,)."""
+
+    low: Floats
+    high: Floats
+    slope: Floats
+    """Derivative of the objective on the piece."""
+    free: NDArray[np.bool_]
+    urge: Floats
+    """Size of the slope along which the objective still falls."""
+    settled: bool
+    """No urge is above its tolerance."""
+
+
+def _choose_piece(
+    weights: Floats,
+    gradient: Floats,
+    price: float,
+    kink: Floats,
+    low: Floats,
+    high: Floats,
+    tolerance: Floats,
+) -> _Piece:
+    """Decide which weights move next: those inside their piece; once those are settled, those on walls too."""
+    above, below = weights > kink, weights < kink
+    # Slope of the objective when a weight goes up, and when it goes down: it should go where it is negative.
+    up = np.where(weights < high, gradient + np.where(below, -price, price), np.inf)
+    down = np.where(weights > low, np.where(above, -price, price) - gradient, np.inf)
+    urge = np.maximum(-np.minimum(up, down), 0.0)
+    wants = urge > tolerance
+    upper = above | ((up < down) & ~below)
+    piece_low, piece_high = np.where(upper, kink, low), np.where(upper, high, kink)
+    inside = (weights > piece_low) & (weights < piece_high)
+    # Weights on walls wait until the inner ones are settled: before that, most would be called for nothing.
+    free = inside if np.any(inside & wants) else inside | wants
+    slope = gradient + np.where(upper, price, -price)
+    return _Piece(piece_low, piece_high, slope, free, urge, settled=not wants.any())
+
+
+@dataclass(frozen=True, eq=False)
+class _Face:
+    """Solves for the free weights, the others held."""
+
+    rows: Floats
+    ridge: float
+
+    def step(self, weights: Floats, piece: _Piece, bold: bool) -> Floats:
+        """Move the free weights towards their joint minimum, as far as walls allow; the objective falls."""
+        at = np.flatnonzero(piece.free)
+        while True:
+            part, here, low, high = self.rows[:, at], weights[at], piece.low[at], piece.high[at]
+            move = self.newton(part, -piece.slope[at])
+            goal = np.minimum(np.maximum(here + move, low), high)
+            hit = np.flatnonzero(goal != here + move)
+            if not len(hit) or (bold and self.falls(part, piece.slope[at], goal - here)):
+                break
+            share = (goal[hit] - here[hit]) / move[hit]
+            if share.min() > 0.0:
+                # Careful: go until the first wall.
+                first = hit[np.argmin(share)]
+                nearest = goal[first]
+                goal = np.minimum(np.maximum(here + share.min() * move, low), high)
+                goal[first] = nearest
+                break
+            at = np.delete(at, hit[share <= 0.0])
+        moved = weights.copy()
+        moved[at] = goal
+        return moved
+
+    def newton(self, part: Floats, right: Floats) -> Floats:
+        """Solve (PᵀP + αI) x = right for the columns P (r, f), in whichever of f and r is smaller."""
+        r, f = part.shape
+        if f <= r:
+            direct: Floats = np.linalg.solve(part.T @ part + self.ridge * np.eye(f), right)
+            return direct
+        inner: Floats = np.linalg.solve(part @ part.T + self.ridge * np.eye(r), part @ right)
+        outer: Floats = (right - inner @ part) / self.ridge
+        return outer
+
+    def falls(self, part: Floats, slope: Floats, change: Floats) -> bool:
+        """Return whether the objective is lower after `change`, which stays on the piece."""
+        moved = part @ change
+        return float(change @ slope + 0.5 * (moved @ moved + self.ridge * (change @ change))) < 0.0

@@ -1,0 +1,219 @@
+"""Spreads what is known of a shape (lips, lid margins, a brow) smoothly over the rest of the skin."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from generator.anatomy import Anatomy
+from generator.meshes import vertex_normals
+from generator.openings import lip_curves
+from generator.skin import LIP_PROFILE, Skin
+from generator.topology import EYE_LOOP, EYE_RINGS, LIP_RINGS, MOUTH_RINGS
+from generator.vectors import MIRROR, Array, Ints, Mask, blob, turn, unit
+
+NO_RING = 99
+BAG_FOLLOWS = ((-1, 1.0), (-2, 0.97), (-3, 0.8), (-4, 0.5), (-5, 0.22))
+"""(ring, share of the lips' motion that the inside of the mouth follows)"""
+LID_FOLLOWS = {-3: 0.8, -2: 1.0, -1: 1.0, 0: 1.0, 1: 0.93, 2: 0.83, 3: 0.68, 4: 0.50}
+"""Share of the margin's turn that each lid ring makes."""
+BLINK_BULGE = {-3: 0, -2: 0, -1: 0.03, 0: 0.052, 1: 0.058, 2: 0.058, 3: 0.048, 4: 0.030}
+"""How far a closed lid rises, in eyeball radii: half way, the straight path of a blink would cut the eye."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lips:
+    """Coordinates of lip vertices, what mouth shapes are functions of."""
+
+    across: Array
+    """-1 right corner, 0 middle, 1 left corner."""
+    side: Array
+    """1 upper lip, -1 lower lip, 0 corner."""
+    depth: Array
+    """0 contact line .. 1 border of the red."""
+
+
+@dataclass(frozen=True, eq=False)
+class LidMove:
+    """A motion of the left eyelids."""
+
+    skin: Array
+    """(n, 3) displacement of the skin."""
+    axes: Array
+    """(EYE_LOOP, 3) axis about which each margin vertex turns."""
+    angles: Array
+    """(EYE_LOOP,) by how much, radians."""
+
+
+def _bilaplacian(vertices: Array, triangles: Ints) -> sp.csr_matrix:
+    """Return the (n, n) square of the cotangent Laplacian, with clamped cotangents and areas."""
+    n, corners = len(vertices), vertices[triangles]
+    weights = sp.csr_matrix((n, n))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        u, v = corners[:, i] - corners[:, k], corners[:, j] - corners[:, k]
+        sine = np.maximum(np.linalg.norm(np.cross(u, v), axis=1), 1e-6)
+        cotangent = np.clip((u * v).sum(1) / sine, 0.08, 4) / 2
+        weights = (
+            weights + sp.coo_matrix((cotangent, (triangles[:, i], triangles[:, j])), shape=(n, n)).tocsr()
+        )
+    weights = weights + weights.T
+    laplacian = sp.diags(np.asarray(weights.sum(1)).ravel()) - weights
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(cross, axis=1) / 2
+    mass = np.maximum(np.bincount(triangles.ravel(), np.repeat(area / 3, 3), n), 0.004)
+    return (laplacian @ sp.diags(1 / mass) @ laplacian).tocsr()
+
+
+class SkinDeformer:
+    """The skin with its ring coordinates and the tools that shapes are made with."""
+
+    def __init__(self, skin: Skin, anatomy: Anatomy) -> None:
+        self.skin, self.anatomy = skin, anatomy
+        self.vertices, self.mirror = skin.vertices, skin.mirror
+        self.count = n = len(skin.vertices)
+        self.normals = vertex_normals(skin.vertices, skin.triangles)
+        self.off_centre: Array = np.abs(skin.vertices[:, 0])
+        self._operator = _bilaplacian(skin.vertices, skin.triangles)
+        self.mouth_ring, self.eye_ring = np.full(n, NO_RING), np.full(n, NO_RING)
+        self.across, self.side = np.zeros(n), np.zeros(n)
+        curves = lip_curves(anatomy.mouth)
+        side = np.where(np.abs(curves.along - 1) < 1e-9, 0, np.where(curves.upper, 1, -1))
+        for k, ring in skin.mouth_rings.items():
+            if k == MOUTH_RINGS:
+                continue
+            for sign, vertices in ((1, ring), (-1, self.mirror[ring])):
+                self.mouth_ring[vertices], self.side[vertices] = k, side
+                self.across[vertices] = sign * curves.across
+        self.mouth_ring[skin.bag_centre] = min(skin.mouth_rings) - 1
+        for k, ring in skin.eye_rings.items():
+            if k < EYE_RINGS:
+                self.eye_ring[ring] = self.eye_ring[self.mirror[ring]] = k
+        self.lip: Mask = (self.mouth_ring >= 0) & (self.mouth_ring < LIP_RINGS)
+        self.inside: Mask = self.mouth_ring < 0
+        self.depth = np.zeros(n)
+        self.depth[self.lip] = np.array(LIP_PROFILE)[self.mouth_ring[self.lip]]
+
+    def brush(self, centre: Sequence[float], radii: Sequence[float], left_only: bool = False) -> Array:
+        """Return an (n,) bell about a point of the left side, and about its image unless `left_only`."""
+        left = blob(self.vertices, centre, radii)
+        return left if left_only else np.maximum(left, blob(self.vertices, MIRROR * np.array(centre), radii))
+
+    def spread(self, handles: Ints, values: Array, fixed: Mask) -> Array:
+        """Return (n, ...) values: given at `handles`, 0 at `fixed`, the smoothest (biharmonic) elsewhere."""
+        result = np.zeros((self.count, *values.shape[1:]))
+        result[handles] = values
+        unknown = ~fixed
+        unknown[handles] = False
+        free = np.flatnonzero(unknown)
+        rows = self._operator[free]
+        solver = splu(
+            rows[:, free].tocsc(),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+        result[free] = solver.solve(np.ascontiguousarray(-(rows @ result)))
+        return result
+
+    def follow_inside(self, moved: Array) -> Array:
+        """Let the inside of the mouth follow the contact line; changes and returns `moved`."""
+        contact = self.skin.mouth_rings[0]
+        for k, share in BAG_FOLLOWS:
+            ring = self.skin.mouth_rings[k]
+            moved[ring] = moved[contact] * share
+            moved[self.mirror[ring]] = moved[self.mirror[contact]] * share
+        return moved
+
+    def mouth(self, motion: Callable[[Lips], Array], reach: Sequence[float] = (5.4, 4.4, 6.0)) -> Array:
+        """Return the (n, 3) displacement of the skin when the lips move by `motion`.
+
+        `reach` are the half axes of the region about the mouth that gives way.
+        """
+        handles = np.flatnonzero(self.lip)
+        values = motion(Lips(self.across[handles], self.side[handles], self.depth[handles]))
+        q = (self.vertices - np.array([0, -5.8, 5.5])) / np.array(reach)
+        still = ((q**2).sum(1) > 1) | (self.vertices[:, 1] > -1.6) | (self.eye_ring < 8) | self.inside
+        nose = self.brush((0, -2.3, 8.2), (0.9, 0.9, 0.9)) > 0.35
+        return self.follow_inside(self.spread(handles, values, (still | nose) & ~self.lip))
+
+    def lids(
+        self, upper: float, lower: float, blink: float = 0.0, shift: tuple[float, float] = (0, 0)
+    ) -> LidMove:
+        """Return the motion of the left lids: each margin turns about the eyeball towards the other.
+
+        Parameters
+        ----------
+        upper, lower : float
+            Share of the way to the other margin; negative opens.
+        blink : float
+            How far the lids rise off the eyeball on the way (BLINK_BULGE).
+        shift : (float, float)
+            Extra motion in x and y, for lids that follow the gaze.
+        """
+        skin, centre = self.skin, np.array(self.anatomy.eye.centre)
+        radius = self.anatomy.eye.radius
+        margin = unit(self.vertices[skin.eye_rings[0]] - centre)
+        index = np.arange(EYE_LOOP)
+        opposite = margin[(EYE_LOOP - index) % EYE_LOOP]
+        is_upper = index <= EYE_LOOP // 2
+        s = np.abs(np.linspace(-1, 1, EYE_LOOP // 2 + 1))
+        s = np.concatenate([s, s[::-1][1:-1]])
+        axes = np.cross(margin, opposite)
+        sine = np.linalg.norm(axes, axis=1)
+        axes = axes / np.maximum(sine, 1e-9)[:, None]
+        axes[sine < 1e-6] = 0
+        angles = np.where(is_upper, upper, lower) * np.arctan2(sine, (margin * opposite).sum(1))
+
+        moved = np.zeros_like(self.vertices)
+        for k, share in LID_FOLLOWS.items():
+            ring = skin.eye_rings[k]
+            start = self.vertices[ring] - centre
+            lift = blink * (1 - s**4) * radius * BLINK_BULGE[k]
+            if k >= 0:
+                lift = lift + np.where(is_upper, 0.006, 0) * blink
+            length = np.linalg.norm(start, axis=1) + lift
+            end = unit(turn(start, axes, angles * share)) * length[:, None]
+            end = end + np.array([*shift, 0]) * share * (1 - s**3)[:, None]
+            moved[ring] = end - start
+        left = self.vertices[:, 0] > 0
+        handles = (self.eye_ring <= 4) & left
+        q = (self.vertices - centre) / np.array([3.6, 2.9, 4.5])
+        fixed = (((q**2).sum(1) > 1) | (self.vertices[:, 0] < 0.35)) & ~handles
+        return LidMove(self.spread(np.flatnonzero(handles), moved[handles], fixed), axes, angles)
+
+    def mirrored(self, moved: Array) -> Array:
+        """Return a displacement of the skin carried over to the other side."""
+        result: Array = moved[self.mirror] * MIRROR
+        return result
+
+    def lip_ring(self, k: int, right: bool = False) -> Ints:
+        """Return mouth ring `k` of the left or right half."""
+        ring = self.skin.mouth_rings[k]
+        return self.mirror[ring] if right else ring
+
+    def jaw_weights(self) -> Array:
+        """Return (n,) how far each skin vertex goes with the jaw."""
+        v, across = self.vertices, np.abs(self.across)
+        y, z = v[:, 1], v[:, 2]
+        lower, upper = 0.40 + 0.60 * (1 - across**3), 0.40 * across**2.6
+        weights = np.zeros(self.count)
+        weights[self.lip] = np.where(self.side == 0, 0.40, np.where(self.side < 0, lower, upper))[self.lip]
+        chin = (y < -7.6) & (y > -10.4) & (z > 3.6) & (self.off_centre < 2.8)
+        chin &= ~self.lip & ~self.inside & (self.mouth_ring > LIP_RINGS + 2)
+        weights[chin] = 1
+        handles = self.lip | chin
+        still = (y > -2.2) | (y < -12.8) | (z < -1.2) | ((z < 1.6) & (y < -11))
+        still |= (self.eye_ring < 8) | self.inside | (self.brush((0, -2.6, 8.1), (1.0, 1.0, 1.5)) > 0.4)
+        weights = np.clip(
+            self.spread(np.flatnonzero(handles), weights[handles], still & ~handles), -0.02, 1.06
+        )
+        for k in range(min(self.mouth_ring), 0):
+            ring = self.mouth_ring == k
+            fade = max(0.0, 1 - (-k - 4) * 0.09) if k < -4 else 1.0
+            upper_side = upper * np.clip(1 + k * 0.2, 0, 1)
+            inner = np.where(self.side < 0, lower, np.where(self.side == 0, 0.40, upper_side))
+            weights[ring] = inner[ring] * fade
+        weights[self.skin.bag_centre] = 0.35
+        return weights

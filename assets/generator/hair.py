@@ -1,0 +1,62 @@
+"""Hair as one sculpted shell between crown and hairline."""
+
+import numpy as np
+
+from generator.field import HeadField
+from generator.meshes import Mesh, outwards, strips
+from generator.vectors import MIRROR, Array, columns, curve, mix, repeated, smoothstep, unit
+
+AROUND, ROWS = 68, 23
+AZIMUTH = ((0, 0), (0.30, 1.05), (0.72, 2.0), (1, np.pi))
+"""Angle of the columns, 0 front .. pi back, over their share of the way: closest together at the temples."""
+
+
+def hair(field: HeadField) -> Mesh:
+    """Return the hair: rings from the crown down to the hairline, the last one under the skin."""
+    form = field.anatomy.hair
+    centre = np.array(form.centre, float)
+    k = np.arange(AROUND)
+    side = np.abs((k * 2.0 / AROUND + 1) % 2 - 1)
+    angle = curve(AZIMUTH, side)
+    azimuth = np.where(k <= AROUND // 2, angle, -angle)
+    line = curve(form.line, angle)
+    lowest = np.arctan2(line - centre[1], 7.0 * np.where(angle < 1.0, 1.02, 0.92))
+    fringe = np.exp(-((angle / 0.75) ** 2))
+    rows = []
+    for i in range(ROWS):
+        t = min(i / (ROWS - 2), 1.0)
+        elevation = mix(np.pi / 2, lowest, t**0.9)
+        direction = columns(
+            np.cos(elevation) * np.sin(azimuth), np.sin(elevation), np.cos(elevation) * np.cos(azimuth)
+        )
+        scalp = field.raycast(repeated(form.centre, AROUND), direction, 15, steps=40, lids=False)
+        normal = unit(field.gradient(scalp))
+        if i == ROWS - 1:
+            rows.append(scalp - normal * 0.25)
+            continue
+        rows.append(scalp + _volume(normal, t, angle, fringe))
+    rows[0][:] = rows[0].mean(0) * np.array([0, 1, 1])
+    vertices = np.concatenate(rows)
+    mirror = np.concatenate([i * AROUND + (-k) % AROUND for i in range(ROWS)])
+    vertices = (vertices + vertices[mirror] * MIRROR) / 2
+    starts = [vertices[i * AROUND : (i + 1) * AROUND] for i in range(ROWS)]
+    vertices, triangles = strips(starts, closed=True, smallest=1e-9)
+    strands = 1 + 0.10 * np.sin(np.tile(angle, ROWS) * 18)
+    return Mesh(
+        vertices, outwards(vertices, triangles), np.array(field.anatomy.colours.hair) * strands[:, None]
+    )
+
+
+def _volume(normal: Array, t: float, angle: Array, fringe: Array) -> Array:
+    """Return the (AROUND, 3) offset of the hair from the scalp at share `t` of the way to the hairline."""
+    edge = np.sqrt(np.clip((1 - t) / 0.16, 0, 1))
+    temple = smoothstep(0.9, 1.5, angle) * smoothstep(0.55, 1, t)
+    thick = 0.70 + 1.05 * fringe * smoothstep(0.15, 0.8, t) + 0.1 * np.cos(angle)
+    thick = thick * mix(0.25, 1, edge * (2 - edge)) * (1 - 0.55 * temple)
+    wave = np.abs(np.sin(angle * 9 + 0.9 * np.sin(t * 3 + angle * 2) - 0.5 * t))
+    groove = 0.20 * (1 - wave) ** 2 * smoothstep(0.10, 0.45, t)
+    swept = fringe * smoothstep(0.4, 0.95, t) * (1 - 0.6 * smoothstep(0.93, 1, t))
+    offset: Array = (
+        normal * (thick * (1 - groove / 0.8))[:, None] + np.array([0, 0.35, 0.25]) * swept[:, None]
+    )
+    return offset

@@ -1,0 +1,67 @@
+"""Small meshes made of closed or open strips, and what is computed on any mesh."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from generator.vectors import Array, Ints, unit
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A part of the character."""
+
+    vertices: Array
+    """(n, 3)"""
+    triangles: Ints
+    """(m, 3) counter-clockwise seen from outside."""
+    colours: Array
+    """(n, 3) sRGB 0..1."""
+
+    def mirrored(self) -> "Mesh":
+        """Return the same part on the other side of the face."""
+        return Mesh(self.vertices * np.array([-1.0, 1, 1]), self.triangles[:, [0, 2, 1]], self.colours)
+
+
+def face_normals(vertices: Array, triangles: Ints) -> Array:
+    """Return (m, 3) normals of twice the area's length."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    result: Array = np.cross(b - a, c - a)
+    return result
+
+
+def vertex_normals(vertices: Array, triangles: Ints) -> Array:
+    """Return (n, 3) unit normals, weighted by area."""
+    f = face_normals(vertices, triangles)
+    total = [np.bincount(triangles.ravel(), np.repeat(f[:, k], 3), len(vertices)) for k in range(3)]
+    return unit(np.stack(total, 1))
+
+
+def strip_triangles(grid: Ints, closed: bool = False) -> Ints:
+    """Return the triangles of a grid of vertex indices (rows x columns), a tube when `closed`."""
+    rows, count = grid.shape
+    triangles: list[tuple[int, int, int]] = []
+    for i in range(rows - 1):
+        for j in range(count if closed else count - 1):
+            k = (j + 1) % count
+            a, b, c, d = grid[i, j], grid[i + 1, j], grid[i + 1, k], grid[i, k]
+            triangles += [(a, b, c), (a, c, d)]
+    found = np.array(triangles)
+    a, b, c = found.T
+    kept: Ints = found[(a != b) & (b != c) & (a != c)]
+    return kept
+
+
+def strips(rows: list[Array], closed: bool = False, smallest: float = 0.0) -> tuple[Array, Ints]:
+    """Return vertices and triangles of equally long rows of points; triangles of no area are left out."""
+    vertices = np.concatenate(rows)
+    triangles = strip_triangles(np.arange(len(vertices)).reshape(len(rows), -1), closed)
+    area = np.linalg.norm(face_normals(vertices, triangles), axis=1)
+    return vertices, triangles[area > smallest] if smallest else triangles
+
+
+def outwards(vertices: Array, triangles: Ints) -> Ints:
+    """Return the triangles of a nearly closed mesh, turned so that they face outwards."""
+    centres = vertices[triangles].mean(1) - vertices.mean(0)
+    volume = (face_normals(vertices, triangles) * centres).sum()
+    return triangles if volume > 0 else triangles[:, [0, 2, 1]]

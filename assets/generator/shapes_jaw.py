@@ -1,0 +1,105 @@
+"""Shapes of jaw and tongue, and mouthClose, which seals the lips of an open jaw."""
+
+import numpy as np
+
+from generator.character import Character
+from generator.deformer import Lips, SkinDeformer
+from generator.shape import Shape
+from generator.shapes_mouth import middle
+from generator.skin import LIP_PROFILE
+from generator.topology import MOUTH_LOOP
+from generator.vectors import Array, Vector, columns, mix, rotation, smoothstep
+
+HINGE: Vector = (0, -1.3, -0.6)
+OPEN_ANGLE = 17.5
+TONGUE_OUT_OPENS = 0.36
+"""How far tongueOut opens the jaw, so that the tongue clears the teeth."""
+
+
+class Jaw:
+    """Rigid motion of the lower jaw, fading out over the skin."""
+
+    def __init__(self, character: Character, deformer: SkinDeformer) -> None:
+        self._character, self._vertices = character, deformer.vertices
+        self._weights = deformer.jaw_weights()
+
+    def moved(self, open_by: float = 0, shift: Vector = (0, 0, 0), yaw: float = 0) -> Shape:
+        """Return the shape of a jaw opened by `open_by`, shifted, and turned sideways by `yaw` (degrees)."""
+        hinge = np.array(HINGE)
+        matrix = rotation((1, 0, 0), open_by) @ rotation((0, 1, 0), yaw)
+
+        def motion(points: Array) -> Array:
+            result: Array = (points - hinge) @ matrix.T + hinge + np.array(shift) - points
+            return result
+
+        gums = motion(self._character.place("gums"))
+        gums[: self._character.upper_gum_count] = 0
+        parts = {
+            "teethLower": motion(self._character.place("teethLower")),
+            "tongue": motion(self._character.place("tongue")) * 0.93,
+            "gums": gums,
+        }
+        return Shape(motion(self._vertices) * self._weights[:, None], parts)
+
+
+def narrow(lip: Lips) -> Array:
+    """Corners of an opening mouth go in a little."""
+    x = lip.across
+    return columns(-0.22 * np.sign(x) * np.abs(x) ** 1.5, 0, 0.05 * np.abs(x))
+
+
+def tongue_lips(lip: Lips) -> Array:
+    """Lips make room for the tongue."""
+    m, low, high = middle(lip.across), lip.side < 0, lip.side > 0
+    return columns(0, -0.22 * low * m + 0.10 * high * m, 0.10 * low * m)
+
+
+def jaw_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:
+    """Return jawOpen, jawForward, jawLeft, mouthClose and tongueOut."""
+    jaw = Jaw(character, deformer)
+    open_ = jaw.moved(OPEN_ANGLE, (0, -0.35, 0.45))
+    open_ = Shape(open_.skin + deformer.mouth(narrow), open_.parts)
+    return {
+        "jawOpen": open_,
+        "jawForward": jaw.moved(shift=(0, -0.12, 0.85)),
+        "jawLeft": jaw.moved(shift=(0.55, 0, 0), yaw=4.5),
+        "mouthClose": Shape(_close(deformer, open_.skin)),
+        "tongueOut": _tongue_out(character, deformer, jaw),
+    }
+
+
+def _close(deformer: SkinDeformer, opened: Array) -> Array:
+    """Bring both contact lines together at weight 1 of jawOpen; nearly all of the way is the lower lip's."""
+    moved = np.zeros_like(deformer.vertices)
+    order = np.arange(MOUTH_LOOP)
+    opposite = order[::-1]
+    upper = (order <= MOUTH_LOOP // 2)[:, None]
+    for right in (False, True):
+        contact = opened[deformer.lip_ring(0, right)]
+        of_upper, of_lower = (
+            np.where(upper, contact, contact[opposite]),
+            np.where(upper, contact[opposite], contact),
+        )
+        meeting = of_upper + np.array([0.4, 0.30, 0.06]) * (of_lower - of_upper)
+        for k, t in enumerate(LIP_PROFILE):
+            ring = deformer.lip_ring(k, right)
+            moved[ring] = np.where(upper, meeting - of_upper, meeting - of_lower) * mix(1, 0.80, t)
+    v = deformer.vertices
+    handles = np.flatnonzero(deformer.lip)
+    q = (v - np.array([0, -5.8, 5.5])) / np.array([5.6, 4.6, 6.5])
+    still = ((q**2).sum(1) > 1) | (v[:, 1] > -2.2) | (v[:, 1] < -8.6) | deformer.inside
+    return deformer.follow_inside(deformer.spread(handles, moved[handles], still & ~deformer.lip))
+
+
+def _tongue_out(character: Character, deformer: SkinDeformer, jaw: Jaw) -> Shape:
+    """Open the jaw a little and push the tongue out over the lower lip."""
+    opened = jaw.moved(OPEN_ANGLE * TONGUE_OUT_OPENS, (0, -0.12, 0.15))
+    place = character.place("tongue")
+    f = np.clip((place[:, 2] - (place[:, 2].max() - 4.3)) / 4.3, 0, 1)  # 0 root .. 1 tip
+    drop = -0.95 * smoothstep(0.55, 1.05, f) ** 1.3 + 0.42 * smoothstep(0.15, 0.6, f)
+    flatten = -0.25 * (place[:, 1] - place[:, 1].mean()) * smoothstep(0.3, 0.8, f)
+    out = columns(-0.10 * place[:, 0] * smoothstep(0.6, 1, f), drop + flatten, 2.75 * smoothstep(0, 0.9, f))
+    return Shape(
+        opened.skin + deformer.mouth(tongue_lips),
+        {**opened.parts, "tongue": opened.parts["tongue"] + out},
+    )

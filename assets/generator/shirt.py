@@ -1,0 +1,33 @@
+"""The collar and shoulders that end the bust."""
+
+import numpy as np
+
+from generator.anatomy import Colours
+from generator.meshes import Mesh, strips, vertex_normals
+from generator.vectors import MIRROR, repeated
+
+AROUND = 36
+ROWS = (
+    (2.8, -13.6, 0), (3.0, -12.6, 0), (3.28, -12.3, 0), (3.56, -12.55, 0),
+    (3.68, -13.3, 0.1), (4.5, -14.05, 0.5), (6.4, -14.8, 1.0), (8.4, -16.0, 1.3),
+)  # fmt: skip
+"""(radius, height, how much it is shoulder) from the inside of the collar outwards."""
+
+
+def shirt(colours: Colours) -> Mesh:
+    """Return the shirt."""
+    angle = 2 * np.pi * np.arange(AROUND) / AROUND
+    rows = []
+    for radius, height, shoulder in ROWS:
+        tilt = 0.55 * np.cos(angle) * (1 - 0.3 * shoulder) if shoulder < 0.9 else 0 * angle
+        x = radius * np.sin(angle) * (1 + 0.22 * shoulder)
+        rows.append(np.c_[x, height - tilt, -2.55 + radius * np.cos(angle) * (1.04 - 0.22 * shoulder)])
+    vertices, triangles = strips(rows, closed=True)
+    k = np.arange(AROUND)
+    mirror = np.concatenate([i * AROUND + (-k) % AROUND for i in range(len(ROWS))])
+    vertices = (vertices + vertices[mirror] * MIRROR) / 2
+    if vertex_normals(vertices, triangles)[3 * AROUND, 2] < 0:
+        triangles = triangles[:, [0, 2, 1]]
+    colour = repeated(colours.shirt, len(vertices))
+    colour[: 4 * AROUND] *= 0.9
+    return Mesh(vertices, triangles, colour)

@@ -1,0 +1,67 @@
+"""Names that come from files, made fit to be shown: printable, short, unique."""
+
+import re
+from collections.abc import Sequence
+
+LONGEST = 64
+MOST_LISTED = 6
+TERMINAL_CODE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
+
+
+def clean_name(name: str) -> str:
+    """Return `name` without what cannot be seen, blanks folded, shortened to 64 characters; maybe empty.
+
+    Dropped are control, format and direction characters and terminal codes.
+    """
+    name = TERMINAL_CODE.sub("", name[: 16 * LONGEST])
+    visible = "".join(c for c in name if c.isprintable() or c.isspace())
+    visible = " ".join(visible.split())
+    return visible if len(visible) <= LONGEST else visible[: LONGEST - 1].rstrip() + "…"
+
+
+def clean_names(names: Sequence[str], *, unnamed: str = "shape") -> tuple[list[str], list[str]]:
+    """Clean all `names` and make them unique: empty becomes shape_j, a repeated one gets " 2", " 3", ….
+
+    Returns
+    -------
+    names : list of str
+        As many as came in, unique and printable.
+    remarks : list of str
+        One line for each kind of mending that was needed.
+    """
+    taken = set[str]()
+    clean = []
+    numbered, mended, empty = [], [], []
+    wanted = {clean_name(name) for name in names}
+    next_number = dict[str, int]()
+    for j, name in enumerate(names):
+        base = clean_name(name)
+        if not base:
+            base = f"{unnamed}_{j}"
+            empty.append(base)
+        elif base != name:
+            mended.append(base)
+        unique = base
+        if base in taken:
+            number = next_number.get(base, 2)
+            while (unique := f"{base} {number}") in taken or unique in wanted:
+                number += 1
+            next_number[base] = number + 1
+            numbered.append(unique)
+        taken.add(unique)
+        clean.append(unique)
+    remarks = []
+    if empty:
+        remarks.append(f"{unnamed}s without a name, now called {listed(empty)}")
+    if mended:
+        remarks.append(f"{unnamed} names with unprintable or too many characters, now {listed(mended)}")
+    if numbered:
+        remarks.append(f"{unnamed} names that repeat, now {listed(numbered)}")
+    return clean, remarks
+
+
+def listed(items: Sequence[str]) -> str:
+    """Join with commas; after a few, say how many more there are."""
+    shown = ", ".join(items[:MOST_LISTED])
+    hidden = len(items) - MOST_LISTED
+    return f"{shown} and {hidden} more" if hidden > 0 else shown

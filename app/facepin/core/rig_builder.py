@@ -1,0 +1,302 @@
+"""The one door to a `Rig`: every reader and generator ends here, and what a rig promises is checked here."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csc_array
+
+from facepin.core.arrays import Floats, Indices, Points, frozen
+from facepin.core.errors import FacepinError
+from facepin.core.names import clean_name, clean_names, listed
+from facepin.core.rig import Part, Rig
+
+Delta = ArrayLike | tuple[ArrayLike, ArrayLike]
+"""(n, 3) moves of all vertices, or the pair (s,) vertex indices and (s, 3) moves of those."""
+
+FARTHEST = 1e9
+"""Largest coordinate taken: its fourth power, met in squared normals, still fits a float32."""
+
+MOST_SHAPES = 10_000
+
+
+@dataclass(frozen=True)
+class PartLook:
+    """Name and look of one part, before its faces are known."""
+
+    name: str
+    colour: tuple[float, float, float] | None = None
+    """Base colour, sRGB 0..1."""
+    roughness: float = Part.roughness
+
+
+def build_rig(
+    name: str,
+    neutral: ArrayLike,
+    corners: ArrayLike,
+    face_sizes: ArrayLike,
+    shapes: Iterable[tuple[str, Delta]],
+    *,
+    parts: Sequence[PartLook] = (),
+    face_parts: ArrayLike | None = None,
+    colours: ArrayLike | None = None,
+    limits: ArrayLike | None = None,
+    rest_weights: ArrayLike | None = None,
+    warnings: Iterable[str] = (),
+    source: Path | None = None,
+) -> Rig:
+    """Check the pieces of a rig, mend what can be mended (with a warning each) and put them together.
+
+    Parameters
+    ----------
+    neutral : (n, 3) floats, the file's unit
+        Rest positions.
+    corners : (c,) whole numbers
+        Vertex index of every face corner, face after face.
+    face_sizes : (m,) whole numbers, 3 or more
+        Corners of each face.
+    shapes : k pairs of name and delta
+        See `Delta`.  Taken one by one, so an iterator that makes each delta when asked keeps memory low.
+    parts, face_parts : names and looks of the parts, and (m,) the part of each face
+        Faces are regrouped by part (in the order of `parts`, stable within one); vertices keep their order.
+        `face_parts` may be left out for a single part.
+    colours : (n, 3) floats, sRGB 0..1
+    limits : (k, 2)
+        0..1 when left out; widened where a rest weight lies outside.
+    rest_weights : (k,)
+        Weights the file itself asks for.
+
+    Raises
+    ------
+    FacepinError
+        For wrong array shapes, numbers that are not finite or absurdly large, indices out of range, no faces,
+        no shapes.
+    """
+    name = clean_name(name) or "face"
+    where = source.name if source is not None and source.name else name
+    positions = _points(neutral, f"{where}: neutral")
+    if not len(positions):
+        raise FacepinError(f"{where}: the neutral has no vertices")
+    corner_array, sizes = _faces(where, corners, face_sizes, len(positions))
+    looks = list(parts) or [PartLook(name)]
+    part_of_face = np.zeros(len(sizes), np.intp) if face_parts is None else np.asarray(face_parts, np.intp)
+    if part_of_face.shape != sizes.shape or part_of_face.min() < 0 or part_of_face.max() >= len(looks):
+        raise FacepinError(
+            f"{where}: face_parts must give one of {len(looks)} parts to each of {len(sizes)} faces"
+        )
+    corner_array, sizes, part_of_face = _grouped(corner_array, sizes, part_of_face)
+
+    raw_names, deltas, notes = _columns(where, shapes, len(positions))
+    shape_names, name_remarks = clean_names(raw_names)
+    remarks = name_remarks + [note.format(*(shape_names[j] for j in at)) for note, at in notes]
+    count = len(shape_names)
+    rest = frozen(_numbers(rest_weights, (count,), 0.0, f"{where}: rest weights"), np.float64)
+    allowed = _numbers(limits, (count, 2), (0.0, 1.0), f"{where}: limits")
+    allowed = np.stack([np.minimum(allowed[:, 0], rest), np.maximum(allowed[:, 1], rest)], axis=1)
+
+    return Rig(
+        name=name,
+        neutral=positions,
+        deltas=deltas,
+        shape_names=tuple(shape_names),
+        corners=frozen(corner_array, np.int32),
+        face_sizes=frozen(sizes, np.int32),
+        triangles=frozen(fan_triangles(corner_array, sizes), np.int32),
+        parts=_parts(looks, part_of_face, sizes),
+        limits=frozen(allowed, np.float64),
+        rest_weights=rest,
+        colours=None if colours is None else _colours(where, colours, len(positions)),
+        warnings=(*warnings, *remarks),
+        source=source,
+    )
+
+
+def fan_triangles(corners: Indices, face_sizes: Indices) -> Indices:
+    """Cut every face into the fan around its first corner: (sum of sizes - 2 m, 3) int32, in face order."""
+    starts = np.cumsum(face_sizes) - face_sizes
+    per_face = face_sizes - 2
+    first = np.repeat(starts, per_face)
+    step = np.arange(len(first)) - np.repeat(np.cumsum(per_face) - per_face, per_face)
+    triangles = np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
+    return triangles.astype(np.int32)
+
+
+def _points(values: ArrayLike, where: str, vertices: ArrayLike | None = None) -> Points:
+    """Return (n, 3) float32, read-only, all finite and of a size that float32 arithmetic bears.
+
+    `vertices` are the numbers of the rows for the message, where they are not 0, 1, 2 and so on.
+    """
+    array = np.asarray(values)
+    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "fiu":
+        raise FacepinError(f"{where} must be (n, 3) numbers, found {array.dtype} {array.shape}")
+    with np.errstate(over="ignore"):
+        points: Points = frozen(array, np.float32)
+    with np.errstate(invalid="ignore"):
+        wild = ~(np.abs(points) <= FARTHEST)
+    if wild.any():
+        row, axis = np.argwhere(wild)[0]
+        vertex = row if vertices is None else np.asarray(vertices)[row]
+        raise FacepinError(
+            f"{where}: {'xyz'[axis]} of vertex {vertex} is {points[row, axis]}, "
+            f"allowed are finite numbers up to {FARTHEST:.0e}"
+        )
+    return points
+
+
+def _faces(where: str, corners: ArrayLike, face_sizes: ArrayLike, vertices: int) -> tuple[Indices, Indices]:
+    corner_array, sizes = np.asarray(corners), np.asarray(face_sizes)
+    for array, word in ((corner_array, "corners"), (sizes, "face sizes")):
+        if array.ndim != 1 or array.dtype.kind not in "iu":
+            raise FacepinError(
+                f"{where}: {word} must be a list of whole numbers, found {array.dtype} {array.shape}"
+            )
+    if not len(sizes):
+        raise FacepinError(f"{where}: the neutral has no faces, so there is nothing to draw or to pin")
+    if sizes.min() < 3:
+        face = int(np.argmax(sizes < 3))
+        raise FacepinError(f"{where}: face {face} has {sizes[face]} corners, allowed are 3 or more")
+    if sizes.sum(dtype=np.int64) != len(corner_array):
+        raise FacepinError(f"{where}: faces ask for {sizes.sum()} corners, found {len(corner_array)}")
+    outside = (corner_array < 0) | (corner_array >= vertices)
+    if outside.any():
+        at = int(np.argmax(outside))
+        face = int(np.searchsorted(np.cumsum(sizes), at, side="right"))
+        raise FacepinError(
+            f"{where}: face {face} refers to vertex {corner_array[at]}, allowed are 0 to {vertices - 1}"
+        )
+    return corner_array.astype(np.int32), sizes.astype(np.int32)
+
+
+def _grouped(
+    corners: Indices, sizes: Indices, part_of_face: NDArray[np.intp]
+) -> tuple[Indices, Indices, NDArray[np.intp]]:
+    """Reorder faces so that those of one part follow each other; nothing is copied where they already do."""
+    if (np.diff(part_of_face) >= 0).all():
+        return corners, sizes, part_of_face
+    order = np.argsort(part_of_face, kind="stable")
+    starts = (np.cumsum(sizes) - sizes)[order]
+    sizes = sizes[order]
+    within = np.arange(len(corners)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    return corners[np.repeat(starts, sizes) + within], sizes, part_of_face[order]
+
+
+def _parts(looks: Sequence[PartLook], part_of_face: NDArray[np.intp], sizes: Indices) -> tuple[Part, ...]:
+    """Return the parts that have faces, as runs of the grouped faces."""
+    names, _ = clean_names([look.name for look in looks], unnamed="part")
+    triangle_ends = np.concatenate([[0], np.cumsum(sizes - 2)])
+    edges = np.searchsorted(part_of_face, np.arange(len(looks) + 1))
+    parts = []
+    for look, name, start, stop in zip(looks, names, edges[:-1].tolist(), edges[1:].tolist(), strict=True):
+        if start < stop:
+            triangles = range(int(triangle_ends[start]), int(triangle_ends[stop]))
+            parts.append(Part(name, range(start, stop), triangles, look.colour, look.roughness))
+    return tuple(parts)
+
+
+def _columns(
+    where: str, shapes: Iterable[tuple[str, Delta]], vertices: int
+) -> tuple[list[str], csc_array, list[tuple[str, tuple[int, ...]]]]:
+    """Gather the deltas as columns.
+
+    Returns raw names, the (3 n, k) matrix, and remarks with the numbers of the shapes that they speak of.
+    """
+    names: list[str] = []
+    rows: list[Indices] = []
+    moves: list[Points] = []
+    still: list[int] = []
+    equal: list[tuple[int, int]] = []
+    seen: dict[tuple[int, int, float], list[int]] = {}
+    for j, (raw_name, delta) in enumerate(shapes):
+        if j == MOST_SHAPES:
+            raise FacepinError(f"{where}: more than {MOST_SHAPES} shapes")
+        names.append(raw_name)
+        column_rows, column = _column(delta, vertices, f"{where}: shape {clean_name(raw_name) or j}")
+        rows.append(column_rows)
+        moves.append(column)
+        if not len(column):
+            still.append(j)
+            continue
+        twins = seen.setdefault((len(column), int(column_rows[0]), float(column.sum(dtype=np.float64))), [])
+        for i in twins:
+            if np.array_equal(rows[i], column_rows) and np.array_equal(moves[i], column):
+                equal.append((i, j))
+                break
+        else:
+            twins.append(j)
+    if not names:
+        raise FacepinError(f"{where}: no shapes, only a neutral; allowed are one or more")
+
+    starts = np.zeros(len(names) + 1, np.int64)
+    np.cumsum([len(column) for column in moves], out=starts[1:])
+    if starts[-1] <= np.iinfo(np.int32).max:
+        starts = starts.astype(np.int32)
+    matrix = csc_array(
+        (np.concatenate(moves), np.concatenate(rows), starts), shape=(3 * vertices, len(names)), copy=False
+    )
+    matrix.has_sorted_indices = True
+    for array in (matrix.data, matrix.indices, matrix.indptr):
+        array.flags.writeable = False
+    return names, matrix, [*_equal_remarks(equal), *_still_remarks(still)]
+
+
+def _column(delta: Delta, vertices: int, where: str) -> tuple[Indices, Points]:
+    """Return the row numbers, sorted, and the non-zero values of one shape."""
+    if not isinstance(delta, tuple):
+        points = _points(delta, where)
+        if len(points) != vertices:
+            raise FacepinError(f"{where} has {len(points)} vertices, the neutral has {vertices}")
+        flat = points.ravel()
+        kept = np.flatnonzero(flat)
+        return kept.astype(np.int32), flat[kept]
+    chosen, moved = np.asarray(delta[0]), np.asarray(delta[1])
+    if chosen.ndim != 1 or chosen.shape != moved.shape[:1] or (len(chosen) and chosen.dtype.kind not in "iu"):
+        raise FacepinError(f"{where}: {chosen.shape} vertex indices do not fit {moved.shape} moves")
+    points = _points(moved, where, chosen)
+    if not len(chosen):
+        return np.zeros(0, np.int32), np.zeros(0, np.float32)
+    if chosen.min() < 0 or chosen.max() >= vertices:
+        wrong = chosen.min() if chosen.min() < 0 else chosen.max()
+        raise FacepinError(f"{where} moves vertex {wrong}, allowed are 0 to {vertices - 1}")
+    order = np.argsort(chosen, kind="stable")
+    chosen = chosen[order].astype(np.int32)
+    if (np.diff(chosen) == 0).any():
+        raise FacepinError(
+            f"{where} moves vertex {chosen[:-1][np.diff(chosen) == 0][0]} twice, allowed is once"
+        )
+    flat = points[order].ravel()
+    kept = np.flatnonzero(flat)
+    return (3 * chosen[kept // 3] + kept % 3).astype(np.int32), flat[kept]
+
+
+def _equal_remarks(equal: list[tuple[int, int]]) -> list[tuple[str, tuple[int, ...]]]:
+    if not equal:
+        return []
+    pairs = listed(["{} and {}"] * len(equal))
+    numbers = tuple(j for pair in equal for j in pair)[: 2 * pairs.count("{} and {}")]
+    return [(f"equal shapes, which no solver can tell apart: {pairs}", numbers)]
+
+
+def _still_remarks(still: list[int]) -> list[tuple[str, tuple[int, ...]]]:
+    if not still:
+        return []
+    names = listed(["{}"] * len(still))
+    return [(f"shapes that move nothing: {names}", tuple(still[: names.count("{}")]))]
+
+
+def _numbers(values: ArrayLike | None, shape: tuple[int, ...], default: Any, where: str) -> Floats:
+    """Return `values` as finite float64 of `shape`, or the default spread over it."""
+    array = np.array(np.broadcast_to(default, shape) if values is None else values, np.float64)
+    if array.shape != shape or not np.isfinite(array).all():
+        raise FacepinError(f"{where} must be {shape} finite numbers, found {array.shape}")
+    return array
+
+
+def _colours(where: str, colours: ArrayLike, vertices: int) -> Points:
+    array = np.asarray(colours, np.float32)
+    if array.shape != (vertices, 3) or not np.isfinite(array).all():
+        raise FacepinError(f"{where}: colours must be ({vertices}, 3) finite numbers, found {array.shape}")
+    clipped: Points = frozen(np.clip(array, 0.0, 1.0), np.float32)
+    return clipped

@@ -1,0 +1,294 @@
+"""Rigs from .glb, .gltf and .vrm files: morph targets become shapes, node transforms are baked in."""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from facepin.core.arrays import Floats, Points
+from facepin.core.errors import FacepinError
+from facepin.core.rig import Rig
+from facepin.core.rig_builder import Delta, PartLook, build_rig
+from facepin.files.checked_json import JsonObject
+from facepin.files.gltf_accessors import accessor_count, read_delta, read_floats, read_indices
+from facepin.files.gltf_document import COMPRESSIONS, GltfDocument, read_document, refuse_compression
+from facepin.files.gltf_materials import linear_to_srgb, material_factor, part_look
+from facepin.files.gltf_scene import Placed, placed_meshes
+from facepin.files.options import ReadOptions
+
+ShapeKey = tuple[str | tuple[int, int], int]
+"""(name, how many-eth of that name in its mesh); a target without a name has its mesh and place instead."""
+
+TRIANGLES, STRIP, FAN = 4, 5, 6
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Vertices of one primitive at one node: rows `start` .. `start + count` of the rig."""
+
+    start: int
+    count: int
+    linear: Floats | None
+    """(3, 3) what the node's transform does to deltas, None for nothing."""
+
+
+@dataclass
+class Assembly:
+    """What has been gathered so far while the scene is walked."""
+
+    document: GltfDocument
+    positions: list[Points] = field(default_factory=list)
+    colours: list[Points | None] = field(default_factory=list)
+    triangles: list[NDArray[np.int64]] = field(default_factory=list)
+    parts: list[PartLook] = field(default_factory=list)
+    vertices: int = 0
+    corners: int = 0
+    pieces: int = 0
+    shapes: dict[ShapeKey, list[tuple[Block, int]]] = field(default_factory=dict)
+    """Blocks that a shape moves, and their delta accessors."""
+    rest: dict[ShapeKey, float] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+
+    def grow(self, vertices: int, corners: int, pieces: int) -> None:
+        """Count what is about to be added; a small file that repeats itself into a huge rig is refused."""
+        self.vertices += vertices
+        self.corners += corners
+        self.pieces += pieces
+        most = 4 * self.document.size + 65536
+        if max(self.vertices, self.corners, 32 * self.pieces) > most:
+            raise FacepinError(
+                f"{self.document.root.where} its meshes unfold to far more than the file holds"
+            )
+
+
+def read_gltf(path: Path, options: ReadOptions) -> Rig:
+    """Read a rig from a glTF 2.0 file.
+
+    Raises
+    ------
+    FacepinError
+        For anything that is not a sound glTF with at least one mesh that has morph targets.
+    """
+    options.progress(0.0, f"reading {path.name}")
+    document = read_document(path)
+    placed = placed_meshes(document)
+    if not placed:
+        raise FacepinError(f"{path.name}: no mesh in the scene")
+    gathered = Assembly(document)
+    for at, place in enumerate(placed):
+        options.progress(0.1 + 0.3 * at / len(placed), f"reading {_mesh_name(place)}")
+        _add_mesh(gathered, place)
+    if not gathered.triangles:
+        raise FacepinError(f"{path.name}: its meshes have no triangles")
+    if not gathered.shapes:
+        raise FacepinError(f"{path.name}: none of its {len(placed)} meshes has morph targets (blendshapes)")
+    if any("skin" in place.node for place in placed):
+        gathered.warnings.append("skins are ignored: the face stays as it is at rest, bones do not move it")
+
+    triangles = np.concatenate(gathered.triangles)
+    return build_rig(
+        path.stem,
+        np.concatenate(gathered.positions),
+        triangles.ravel(),
+        np.full(len(triangles), 3, np.int32),
+        _shapes(gathered, options),
+        parts=gathered.parts,
+        face_parts=np.repeat(np.arange(len(gathered.parts)), [len(run) for run in gathered.triangles]),
+        colours=_colours(gathered),
+        rest_weights=np.array(list(gathered.rest.values())),
+        warnings=gathered.warnings,
+        source=path,
+    )
+
+
+def _mesh_name(place: Placed) -> str:
+    return place.mesh.text("name", "") or place.node.text("name", "") or f"mesh {place.mesh_index}"
+
+
+def _add_mesh(gathered: Assembly, place: Placed) -> None:
+    """Add the primitives of one mesh; those that share their vertices keep sharing them."""
+    primitives = place.mesh.children("primitives")
+    blocks: dict[tuple[int, ...], Block] = {}
+    names = _target_names(place.mesh)
+    keys = _shape_keys(gathered, place, names)
+    for at, primitive in enumerate(primitives):
+        mode = primitive.integer("mode", 4, high=6)
+        if mode not in (TRIANGLES, STRIP, FAN):
+            gathered.warnings.append(f"{primitive.where}: points and lines are left out")
+            continue
+        attributes = primitive.child("attributes")
+        if "POSITION" not in attributes:
+            raise FacepinError(f"{primitive.where}: no POSITION attribute")
+        targets = [target.optional_integer("POSITION") for target in primitive.children("targets")]
+        position = attributes.integer("POSITION")
+        identity = (
+            position,
+            attributes.integer("COLOR_0", -1, low=-1),
+            *(-1 if t is None else t for t in targets),
+        )
+        block = blocks.get(identity)
+        if block is None:
+            block = blocks[identity] = _add_vertices(gathered, place, primitive, position)
+            for key, target in zip(keys, targets, strict=False):
+                if target is not None:
+                    gathered.shapes[key].append((block, target))
+        gathered.triangles.append(_triangles(gathered, primitive, mode, block, place.matrix))
+        gathered.parts.append(part_look(gathered.document, primitive, _mesh_name(place), at, len(primitives)))
+
+
+def _add_vertices(gathered: Assembly, place: Placed, primitive: JsonObject, position: int) -> Block:
+    document = gathered.document
+    for extension in COMPRESSIONS:
+        if (
+            extension in primitive.child("extensions")
+            and "bufferView" not in (document.root.children("accessors")[position])
+        ):
+            refuse_compression(extension, primitive.where)
+    count = accessor_count(document, position)
+    gathered.grow(count, 0, len(primitive.children("targets")))
+    linear = place.matrix[:3, :3]
+    points = read_floats(document, position, ("VEC3",))
+    if not np.array_equal(place.matrix, np.eye(4)):
+        with np.errstate(all="ignore"):  # build_rig names what is not finite
+            points = (points.astype(np.float64) @ linear.T + place.matrix[:3, 3]).astype(np.float32)
+    gathered.positions.append(points)
+    gathered.colours.append(_vertex_colours(document, primitive, count))
+    return Block(gathered.vertices - count, count, None if np.array_equal(linear, np.eye(3)) else linear)
+
+
+def _vertex_colours(document: GltfDocument, primitive: JsonObject, count: int) -> Points | None:
+    """Return (count, 3) linear vertex colours times the material's factor, or None."""
+    index = primitive.child("attributes").optional_integer("COLOR_0")
+    if index is None:
+        return None
+    colours = read_floats(document, index, ("VEC3", "VEC4"))[:, :3]
+    if len(colours) != count:
+        raise FacepinError(f"{primitive.where}: COLOR_0 has {len(colours)} elements, POSITION has {count}")
+    return colours * material_factor(document, primitive)
+
+
+def _colours(gathered: Assembly) -> Points | None:
+    """Return (n, 3) sRGB colours, or None where no primitive has any; those without get a light grey."""
+    if all(colours is None for colours in gathered.colours):
+        return None
+    filled = [
+        np.full((len(points), 3), 0.6, np.float32) if colours is None else colours
+        for points, colours in zip(gathered.positions, gathered.colours, strict=True)
+    ]
+    return linear_to_srgb(np.concatenate(filled))
+
+
+def _triangles(
+    gathered: Assembly, primitive: JsonObject, mode: int, block: Block, matrix: Floats
+) -> NDArray[np.int64]:
+    """Return (t, 3) vertex indices into the rig, facing outwards also where the node mirrors."""
+    index = primitive.optional_integer("indices")
+    count = block.count if index is None else accessor_count(gathered.document, index)
+    gathered.grow(0, count if mode == TRIANGLES else 3 * count, 0)
+    if index is None:
+        indices: NDArray[np.int64] = np.arange(count)
+    else:
+        indices = read_indices(gathered.document, index, block.count).astype(np.int64)
+    if mode == TRIANGLES:
+        triangles = indices[: count // 3 * 3].reshape(-1, 3)
+    else:
+        middle, last = indices[1:-1], indices[2:]
+        first = indices[:-2] if mode == STRIP else np.repeat(indices[:1], len(last))
+        triangles = np.stack([first, middle[: len(last)], last], axis=1)
+        if mode == STRIP:
+            triangles[1::2] = triangles[1::2, [1, 0, 2]]
+    if np.linalg.det(matrix[:3, :3]) < 0:
+        triangles = triangles[:, [0, 2, 1]]
+    return triangles + block.start
+
+
+def _target_names(mesh: JsonObject) -> list[str]:
+    """Return the names of a mesh's targets, maybe too few: `mesh.extras`, else the first primitive's."""
+    for holder in (mesh, *mesh.children("primitives")):
+        extras = holder.values.get("extras")
+        names = extras.get("targetNames") if isinstance(extras, dict) else None
+        if isinstance(names, list) and names:
+            return [name if isinstance(name, str) else "" for name in names]
+    return []
+
+
+def _shape_keys(gathered: Assembly, place: Placed, names: list[str]) -> list[ShapeKey]:
+    """Return the shapes that the targets of a mesh belong to, in order, with their rest weights noted.
+
+    Shapes of several meshes that bear the same name are one shape.  Targets without a name are independent.
+    """
+    primitives = place.mesh.children("primitives")
+    counts = {len(primitive.children("targets")) for primitive in primitives}
+    count = max(counts, default=0)
+    if len(counts) > 1:
+        gathered.warnings.append(
+            f"{place.mesh.where}: primitives have {sorted(counts)} targets; those missing are zero"
+        )
+    if names and len(names) != count:
+        gathered.warnings.append(f"{place.mesh.where}: {len(names)} target names for {count} targets")
+    keys: list[ShapeKey] = []
+    repeated = Counter[str]()
+    for j in range(count):
+        name = names[j] if j < len(names) else ""
+        key: ShapeKey = (name, repeated[name]) if name else ((place.mesh_index, j), 0)
+        repeated[name] += 1
+        gathered.shapes.setdefault(key, [])
+        gathered.rest.setdefault(key, 0.0)
+        keys.append(key)
+    for key, weight in zip(keys, _rest_weights(gathered, place, count), strict=True):
+        if weight and gathered.rest[key] not in (0.0, weight):
+            gathered.warnings.append(f"{place.node.where}: another rest weight of {_label(key)} is ignored")
+        gathered.rest[key] = gathered.rest[key] or weight
+    return keys
+
+
+def _rest_weights(gathered: Assembly, place: Placed, count: int) -> list[float]:
+    """Return the weights the file asks for: the node's, else the mesh's; mended to the number of targets."""
+    holder = place.node if "weights" in place.node else place.mesh
+    if "weights" not in holder:
+        return [0.0] * count
+    weights = holder.numbers("weights")
+    if len(weights) != count:
+        gathered.warnings.append(f"{holder.where}.weights has {len(weights)} entries for {count} targets")
+    return (weights + [0.0] * count)[:count]
+
+
+def _shapes(gathered: Assembly, options: ReadOptions) -> Iterator[tuple[str, Delta]]:
+    """Make the deltas one at a time."""
+    stored = 0
+    total = len(gathered.shapes)
+    for j, (key, pieces) in enumerate(gathered.shapes.items()):
+        options.progress(0.4 + 0.6 * j / total, f"shape {j + 1} of {total}")
+        deltas = [_piece(gathered.document, block, accessor) for block, accessor in pieces]
+        vertices = np.concatenate([np.zeros(0, np.int64), *(vertices for vertices, _ in deltas)])
+        stored += len(vertices)
+        if stored > 4 * gathered.document.size:
+            raise FacepinError(
+                f"{gathered.document.root.where} its targets unfold to far more than the file holds"
+            )
+        yield (
+            _label(key),
+            (vertices, np.concatenate([np.zeros((0, 3), np.float32), *(moves for _, moves in deltas)])),
+        )
+
+
+def _label(key: ShapeKey) -> str:
+    return key[0] if isinstance(key[0], str) else ""
+
+
+def _piece(document: GltfDocument, block: Block, accessor: int) -> tuple[NDArray[np.int64], Points]:
+    """Return the vertices of the rig that one target moves, and their moves."""
+    delta = read_delta(document, accessor, block.count)
+    if isinstance(delta, tuple):
+        vertices, moves = np.asarray(delta[0], np.int64), np.asarray(delta[1], np.float32)
+    else:
+        moves = np.asarray(delta, np.float32)
+        vertices = np.flatnonzero(moves.any(axis=1))
+        moves = moves[vertices]
+    if block.linear is not None:
+        with np.errstate(all="ignore"):  # build_rig names what is not finite
+            moves = (moves.astype(np.float64) @ block.linear.T).astype(np.float32)
+    return vertices + block.start, moves

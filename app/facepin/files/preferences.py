@@ -1,0 +1,71 @@
+"""What the program remembers between runs, in the platform's own folder."""
+
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+from facepin.core.errors import FacepinError
+from facepin.files.atomic import atomic_write
+
+RECENT = 10
+"""How many rigs are remembered."""
+
+
+@dataclass(frozen=True)
+class Preferences:
+    """Small choices of the user; a value that makes no sense is replaced by its default."""
+
+    recent: tuple[str, ...] = ()
+    """Rigs opened lately, newest first, absolute paths."""
+    freedom: str = "space"
+    quality: str = "auto"
+    ui_scale: float = 1.0
+    solver: str = "transpose"
+
+    def opened(self, path: Path) -> "Preferences":
+        """Return the preferences with a rig put first among the recent ones."""
+        entry = str(path.resolve())
+        return replace(self, recent=(entry, *(other for other in self.recent if other != entry))[:RECENT])
+
+
+_CHECKS: dict[str, Callable[[Any], bool]] = {
+    "recent": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
+    "freedom": lambda value: value in ("space", "screen"),
+    "quality": lambda value: value in ("auto", "always", "off"),
+    "ui_scale": lambda value: isinstance(value, int | float) and 0.5 <= value <= 4,
+    "solver": lambda value: isinstance(value, str),
+}
+
+
+def read_preferences(path: Path) -> tuple[Preferences, str | None]:
+    """Return the preferences in a file, and one line about what in it could not be used (or None).
+
+    A missing file gives the defaults; a broken one too, so that the program always starts.
+    """
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return Preferences(), None
+    except (OSError, ValueError) as error:
+        return Preferences(), f"{path.name}: preferences could not be read ({error}); the defaults are used"
+    if not isinstance(found, dict):
+        return Preferences(), f"{path.name}: preferences are not a JSON object; the defaults are used"
+    usable = {name: found[name] for name, check in _CHECKS.items() if name in found and check(found[name])}
+    wrong = sorted(set(found) & {field.name for field in fields(Preferences)} - set(usable))
+    if "recent" in usable:
+        usable["recent"] = tuple(usable["recent"][:RECENT])
+    line = f"{path.name}: {', '.join(wrong)} could not be used; the default stands" if wrong else None
+    return Preferences(**usable), line
+
+
+def write_preferences(path: Path, preferences: Preferences) -> str | None:
+    """Write the preferences; return one line when that is impossible (they are not worth an interruption)."""
+    text = json.dumps(asdict(preferences), indent=2) + "\n"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        atomic_write(path, text.encode())
+    except (OSError, FacepinError) as error:
+        return f"preferences could not be kept: {error}"
+    return None

@@ -85,8 +85,8 @@ class PinSolver:
             low, high = np.minimum(self._rig.limits[:, 0], start), np.maximum(self._rig.limits[:, 1], start)
             weights = np.clip(weights, low, high)
         seconds = perf_counter() - began
-        error = self._pin_error(pins, displacement, weights)
-        return Solved(frozen(weights, np.float64), error, seconds, solution.notes)
+        miss = self._pin_error(pins, displacement, weights)
+        return Solved(frozen(weights, np.float64), miss, seconds, solution.notes)
 
     def _prepare(self, pins: tuple[Pin, ...]) -> Solve:
         """Return the solver for pins at these places; goals may differ from call to call."""

@@ -1,0 +1,284 @@
+"""What lies on the desk: the open rig, the camera on it, files being opened or saved, and requests carried out."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import moderngl
+import numpy as np
+
+from facepin.core.camera import Camera, Viewport, frame_points
+from facepin.core.errors import FacepinError
+from facepin.core.pose import Pin, Pose
+from facepin.core.rig import Rig
+from facepin.files import open_rig
+from facepin.files.atomic import atomic_write
+from facepin.files.formats import write_model
+from facepin.files.pose_file import read_pose, write_pose
+from facepin.gpu.picture import draw_picture, png_bytes
+from facepin.panels.file_dialog import FileDialog, Kind
+from facepin.panels.requests import VIEW_COMMANDS, CancelLoading, Command, OpenPath, Request, SetPin, UseSolver
+from facepin.panels.view import View
+from facepin.resources import resource
+from facepin.session.drag import DragTool
+from facepin.session.edit import Edit
+from facepin.session.loading import Loading
+from facepin.session.session import Session, Work
+from facepin.session.solving import SolverChoice
+from facepin.stage import Stage
+
+BUILTIN = "faces/ada.npz"
+
+_POSES = ("Poses", "*.json *.csv")
+_DIALOGS: dict[Command, tuple[Kind, tuple[str, ...]]] = {
+    Command.OPEN_FILE: ("open file", ("Faces", "*.glb *.gltf *.vrm *.npz *.obj", "All files", "*")),
+    Command.OPEN_FOLDER: ("open folder", ()),
+    Command.LOAD_POSE: ("open file", _POSES),
+    Command.SAVE_POSE: ("save file", _POSES),
+    Command.EXPORT: ("save file", ("Models", "*.glb *.obj *.ply *.stl")),
+}
+
+
+class Desk:
+    """Carries out requests; holds what they act on."""
+
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        view: View,
+        choices: Sequence[SolverChoice],
+        *,
+        native_dialogs: bool,
+        pictures: Path,
+    ) -> None:
+        """Start with nothing open.
+
+        Parameters
+        ----------
+        ctx : moderngl.Context
+            Where rigs are drawn.
+        view : View
+            What is shown and how; changed in place.
+        choices : sequence of SolverChoice
+            One per pane, for the first rig.
+        native_dialogs : bool
+            Use the platform's file dialogs.
+        pictures : Path
+            Folder that saved pictures go to.
+        """
+        self.view = view
+        self.tool = DragTool()
+        self.camera = Camera()
+        self.stage: Stage | None = None
+        self.loading: Loading | None = None
+        self.dialog: FileDialog | None = None
+        self.message = ""
+        self.is_error = False
+        self.opened: Path | None = None
+        """The last rig that was opened from a file, for the list of recent ones."""
+        self.closing = False
+        self._ctx = ctx
+        self._choices = tuple(choices)
+        self._native = native_dialogs
+        self._pictures = pictures
+        self._asked: Command | None = None
+        self._saved: Work | None = None
+        self._first_pose: Callable[[Rig], Pose] | None = None
+
+    @property
+    def session(self) -> Session | None:
+        """The open session, if any."""
+        return self.stage.session if self.stage else None
+
+    @property
+    def title(self) -> str:
+        """What the title bar says: the rig, a star while its pose is unsaved, the program."""
+        if self.session is None:
+            return "Facepin"
+        star = "*" if self.session.committed is not self._saved else ""
+        return f"{self.session.rig.name}{star} - Facepin"
+
+    def say(self, message: str, *, error: bool = False) -> None:
+        """Show a message in the status line until the next one."""
+        self.message, self.is_error = message, error
+
+    def open(self, path: Path, first_pose: Callable[[Rig], Pose] | None = None) -> None:
+        """Start opening the rig at `path`; `poll` puts it on the desk when it is there."""
+        if self.loading is not None:
+            self.loading.cancel()
+        self._first_pose = first_pose
+        self.loading = Loading(path, lambda path, progress: open_rig(path, progress=progress))
+
+    def poll(self, viewport: Viewport) -> None:
+        """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""
+        if self.loading is not None and self.loading.finished:
+            loading, self.loading = self.loading, None
+            with self._reporting():
+                rig = loading.result()
+                if rig is not None:
+                    self._show(rig, viewport)
+                    if loading.path != resource("assets", BUILTIN):
+                        self.opened = loading.path
+        if self.dialog is not None and self.dialog.finished:
+            dialog, self.dialog = self.dialog, None
+            if dialog.path is not None:
+                with self._reporting():
+                    self._answered(dialog.path)
+
+    def carry_out(self, request: Request, viewport: Viewport) -> None:
+        """Do what was asked; what can't be done is said in the status line."""
+        with self._reporting():
+            match request:
+                case OpenPath(path):
+                    self.open(path)
+                case CancelLoading() if self.loading is not None:
+                    self.loading.cancel()
+                case Command.QUIT:
+                    self.closing = True
+                case Command.OPEN_BUILTIN:
+                    self.open(resource("assets", BUILTIN))
+                case Command.OPEN_FILE | Command.OPEN_FOLDER:
+                    self._ask(request, Path.home() if self.opened is None else self.opened.parent)
+                case _ if self.stage is not None:
+                    self._act(request, self.stage, viewport)
+
+    def apply(self, edit: Edit) -> None:
+        """Apply an edit to the session, and pass on what it has to say."""
+        if self.session is None:
+            return
+        self.session.apply(edit)
+        if self.session.message:
+            self.say(self.session.message, error=True)
+        elif edit.final and self.is_error:
+            self.say("")
+
+    def release(self) -> None:
+        """Give everything back."""
+        if self.loading is not None:
+            self.loading.cancel()
+        if self.stage is not None:
+            self.stage.release()
+
+    def _act(self, request: Request, stage: Stage, viewport: Viewport) -> None:
+        """Carry out a request that needs an open rig."""
+        session = stage.session
+        pose, rig = session.pose, session.rig
+        match request:
+            case UseSolver(pane, choice):
+                session.choose_solver(pane, choice)
+                self._choices = session.choices
+            case SetPin():
+                self._set_pin(session, request)
+            case Command.UNDO:
+                label = session.undo_label
+                self.say(f"Undone: {label}" if session.undo() else "Nothing to undo")
+            case Command.REDO:
+                label = session.redo_label
+                self.say(f"Redone: {label}" if session.redo() else "Nothing to redo")
+            case Command.RESET_POSE:
+                self.apply(Edit("Reset the pose", True, weights=np.zeros(rig.shape_count)))
+            case Command.DELETE_PINS:
+                kept = tuple(pin for pin in pose.pins if pin.vertex not in self.tool.selected)
+                if len(kept) < len(pose.pins):
+                    self.apply(Edit("Remove pins", True, kept))
+            case Command.CLEAR_PINS:
+                self.apply(Edit("Remove all pins", True, ()))
+            case Command.FRAME:
+                self.camera = frame_points(stage.positions(session.active), viewport.aspect, self.camera)
+            case Command.SCREENSHOT:
+                self._save_picture(stage, viewport)
+            case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT:
+                suffix = ".glb" if request is Command.EXPORT else ".json"
+                folder = Path.home() if self.opened is None else self.opened.parent
+                asked = folder if request is Command.LOAD_POSE else folder / f"{rig.name}{suffix}"
+                self._ask(request, asked)
+            case Command() if request in VIEW_COMMANDS:
+                self.camera = self.camera.looking(VIEW_COMMANDS[request])
+
+    def _set_pin(self, session: Session, request: SetPin) -> None:
+        pins = session.pose.pins
+        if request.remove:
+            kept = tuple(pin for pin in pins if pin.vertex != request.vertex)
+            self.apply(Edit("Remove pin", True, kept))
+            return
+
+        def changed(pin: Pin) -> Pin:
+            if pin.vertex != request.vertex:
+                return pin
+            return replace(
+                pin, freedom=request.freedom or pin.freedom, stiffness=request.stiffness or pin.stiffness
+            )
+
+        self.apply(Edit("Change pin", request.final, tuple(changed(pin) for pin in pins), solve=True))
+
+    def _show(self, rig: Rig, viewport: Viewport) -> None:
+        """Put an opened rig on the desk."""
+        pose = self._first_pose(rig) if self._first_pose else None
+        session = Session(rig, self._choices, pose)
+        if pose is not None and pose.pins:
+            session.apply(Edit("Solve the pins", True, pose.pins, solve=True))
+        stage = Stage(self._ctx, session)
+        if self.stage is not None:
+            self.stage.release()
+        self.stage, self.tool = stage, DragTool()
+        self._saved = session.committed
+        self.camera = frame_points(stage.positions(session.active), viewport.aspect)
+        self.say(session.message, error=bool(session.message))
+
+    def _ask(self, command: Command, start: Path) -> None:
+        kind, filters = _DIALOGS[command]
+        self._asked = command
+        self.dialog = FileDialog(
+            kind, command.title.rstrip("…"), start, filters, use_native=self._native
+        )
+
+    def _answered(self, path: Path) -> None:
+        """Go on with what the dialog was for."""
+        if self._asked in (Command.OPEN_FILE, Command.OPEN_FOLDER):
+            self.open(path)
+            return
+        if self.session is None:
+            return
+        rig, pose = self.session.rig, self.session.pose
+        if self._asked is Command.LOAD_POSE:
+            loaded, report = read_pose(path, rig)
+            self.apply(Edit(f"Load {path.name}", True, weights=loaded.weights))
+            self.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
+        elif self._asked is Command.SAVE_POSE:
+            write_pose(path, rig, pose)
+            self._saved = self.session.committed
+            self.say(f"Saved {path}")
+        elif self._asked is Command.EXPORT:
+            write_model(rig, pose.weights, path)
+            self.say(f"Exported {path}")
+
+    def _save_picture(self, stage: Stage, viewport: Viewport) -> None:
+        """Write what the active pane shows, without pins and panels, under a name that is free."""
+        size = (max(round(viewport.width), 1), max(round(viewport.height), 1))
+        image = draw_picture(stage.mesh(stage.session.active), self.camera, size)
+        self._pictures.mkdir(parents=True, exist_ok=True)
+        name = stage.session.rig.name
+        number = 1
+        while (path := self._pictures / f"{name}-{number:03}.png").exists():
+            number += 1
+        atomic_write(path, png_bytes(image))
+        self.say(f"Saved {path}")
+
+    def _reporting(self) -> "_Reporting":
+        return _Reporting(self)
+
+
+class _Reporting:
+    """Shows what goes wrong inside a `with` block in the status line; bugs pass through."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._desk = desk
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        if isinstance(error, FacepinError | OSError):
+            self._desk.say(str(error), error=True)
+            return True
+        return False

@@ -1,0 +1,98 @@
+"""Asking for a file: the platform's own dialog, or a line to type a path in where there is none."""
+
+import shutil
+import sys
+from pathlib import Path
+from typing import Literal
+
+from imgui_bundle import imgui
+from imgui_bundle import portable_file_dialogs as native
+
+Kind = Literal["open file", "open folder", "save file"]
+
+_LINUX_HELPERS = ("zenity", "kdialog", "matedialog", "qarma")
+
+
+def has_native_dialogs() -> bool:
+    """Say whether the platform's own dialogs can be shown."""
+    return sys.platform in ("win32", "darwin") or any(shutil.which(name) for name in _LINUX_HELPERS)
+
+
+class FileDialog:
+    """One question for a path, asked over several frames."""
+
+    def __init__(
+        self, kind: Kind, title: str, start: Path, filters: tuple[str, ...], *, use_native: bool
+    ) -> None:
+        """Ask for a path.
+
+        Parameters
+        ----------
+        kind : str
+            What may be chosen.
+        title : str
+            What it is for.
+        start : Path
+            Folder to begin in, or the suggested file when saving.
+        filters : tuple of str
+            Pairs for the native dialog: name, patterns, name, patterns …
+        use_native : bool
+            Use the platform's dialog.
+        """
+        self.finished = False
+        self.path: Path | None = None
+        """The answer once finished; None when the user gave up."""
+        self._kind = kind
+        self._title = title
+        self._typed = str(start)
+        self._fresh = True
+        self._native: native.open_file | native.save_file | native.select_folder | None = None
+        if use_native:
+            match kind:
+                case "open file":
+                    self._native = native.open_file(title, str(start), list(filters))
+                case "save file":
+                    self._native = native.save_file(title, str(start), list(filters))
+                case "open folder":
+                    self._native = native.select_folder(title, str(start))
+
+    def draw(self) -> None:
+        """Show the question where it is ours to show, and take the answer when there is one."""
+        if self._native is None:
+            self._draw_prompt()
+        elif self._native.ready(0):
+            answer = self._native.result()
+            chosen = answer[0] if isinstance(answer, list) and answer else answer
+            self._finish(Path(chosen) if chosen and isinstance(chosen, str) else None)
+
+    def _draw_prompt(self) -> None:
+        view = imgui.get_main_viewport()
+        middle = imgui.ImVec2(view.pos.x + view.size.x / 2, view.pos.y + view.size.y * 0.4)
+        imgui.set_next_window_pos(middle, imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
+        imgui.set_next_window_size(imgui.ImVec2(34 * imgui.get_font_size(), 0))
+        flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_saved_settings
+        imgui.begin("##path", None, flags | imgui.WindowFlags_.no_docking)
+        imgui.text(self._title)
+        if self._fresh:
+            imgui.set_keyboard_focus_here()
+            imgui.set_window_focus()
+            self._fresh = False
+        imgui.set_next_item_width(-1)
+        entered, self._typed = imgui.input_text(
+            "##typed", self._typed, imgui.InputTextFlags_.enter_returns_true
+        )
+        imgui.text_disabled("Type a path and press Enter.")
+        width = 6 * imgui.get_font_size()
+        gap = imgui.get_style().item_spacing.x
+        imgui.same_line(imgui.get_content_region_max().x - 2 * width - gap)
+        if imgui.button("Cancel", imgui.ImVec2(width, 0)) or imgui.is_key_pressed(imgui.Key.escape):
+            self._finish(None)
+        imgui.same_line()
+        word = "Save" if self._kind == "save file" else "Open"
+        if (imgui.button(word, imgui.ImVec2(width, 0)) or entered) and self._typed.strip():
+            self._finish(Path(self._typed.strip().strip("'\"")).expanduser())
+        imgui.end()
+
+    def _finish(self, path: Path | None) -> None:
+        self.path = path
+        self.finished = True

@@ -1,0 +1,100 @@
+"""The solver panel: which solver, its own settings, and what its last answer was like."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from imgui_bundle import imgui
+
+from facepin.core.pose import Pose
+from facepin.core.rig import Rig
+from facepin.panels.requests import UseSolver
+from facepin.panels.theme import WARNING
+from facepin.session.solving import Solved, SolverChoice, choose
+from facepin.solvers import SOLVERS
+
+
+def solver_panel(
+    rig: Rig, pose: Pose, pane: int, choice: SolverChoice, solved: Solved | None
+) -> UseSolver | None:
+    """Draw the choice of solver for a pane; return what the user changes in this frame, or None."""
+    request = None
+    imgui.set_next_item_width(-1)
+    if imgui.begin_combo("##solver", choice.kind.title):
+        for key, kind in SOLVERS.items():
+            if imgui.selectable(kind.title, kind is choice.kind)[0] and kind is not choice.kind:
+                request = UseSolver(pane, choose(key, keep_limits=choice.keep_limits))
+            imgui.set_item_tooltip(kind.summary)
+        imgui.end_combo()
+    _sentence(choice.kind.summary)
+    imgui.spacing()
+    for field in dataclasses.fields(choice.settings):
+        value = getattr(choice.settings, field.name)
+        changed, value = _setting(field.name, field.metadata, value)
+        if changed:
+            settings = dataclasses.replace(choice.settings, **{field.name: value})
+            request = UseSolver(pane, dataclasses.replace(choice, settings=settings))
+    if not choice.kind.obeys_limits:
+        changed, keep = imgui.checkbox("keep within limits", choice.keep_limits)
+        imgui.set_item_tooltip("Clip every weight the solver returns to the limits of its shape.")
+        if changed:
+            request = UseSolver(pane, dataclasses.replace(choice, keep_limits=keep))
+    imgui.separator()
+    _answer(rig, pose, solved)
+    return request
+
+
+def _sentence(text: str) -> None:
+    imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
+    imgui.text_wrapped(text)
+    imgui.pop_style_color()
+
+
+def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any]:
+    """Draw one setting by its declared type and range; return (changed, value)."""
+    title = name.replace("_", " ")
+    imgui.set_next_item_width(imgui.get_content_region_avail().x * 0.5)
+    if isinstance(value, bool):
+        result = imgui.checkbox(title, value)
+    elif about["choices"]:
+        words = list(about["choices"])
+        changed, at = imgui.combo(title, words.index(value), words)
+        result = changed, words[at]
+    elif isinstance(value, int):
+        result = imgui.slider_int(title, value, int(about["low"]), int(about["high"]))
+    else:
+        flags = imgui.SliderFlags_.always_clamp
+        if about["log"]:
+            flags |= imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.no_round_to_format
+        shown = "%.4g" if about["log"] else "%.3f"
+        result = imgui.slider_float(title, value, about["low"], about["high"], shown, flags)
+    imgui.set_item_tooltip(about["help"])
+    changed, value = result
+    return changed, value
+
+
+def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:
+    """Draw what the last solve was like."""
+    if solved is None:
+        imgui.text_disabled("Press on the face and drag: the solver's figures appear here.")
+        return
+    low, high = rig.limits.T
+    outside = int(np.count_nonzero((pose.weights < low - 1e-6) | (pose.weights > high + 1e-6)))
+    figures = {
+        "solve time": f"{solved.seconds * 1e3:.2f} ms",
+        "pin error": f"{solved.pin_error:.4g} ({100 * solved.pin_error / rig.height:.2f} % of face)",
+        "out of range": f"{outside} weight{'' if outside == 1 else 's'}",
+    }
+    figures |= {name: f"{value:.4g}" for name, value in solved.notes.items()}
+    if imgui.begin_table("figures", 2, imgui.TableFlags_.sizing_stretch_prop):
+        for name, value in figures.items():
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text_disabled(name)
+            imgui.table_next_column()
+            if name == "out of range" and outside:
+                imgui.text_colored(imgui.ImVec4(*WARNING), value)
+            else:
+                imgui.text(value)
+        imgui.end_table()

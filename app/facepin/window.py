@@ -1,0 +1,280 @@
+"""The one window: glfw, its OpenGL context and imgui, with the user's input as event values.
+
+Without a display the same class opens on glfw's null platform: a real context, real panels, no screen.
+"""
+
+import ctypes
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+# glfw must come after imgui_bundle: the two then share one GLFW library, and imgui's compiled backend can be
+# given the address of a window that pyGLFW made.
+from imgui_bundle import imgui  # isort: skip
+import glfw
+import moderngl
+
+from facepin.core.errors import FacepinError
+from facepin.core.events import (
+    Button,
+    CloseRequested,
+    Event,
+    FilesDropped,
+    KeyPressed,
+    Modifiers,
+    PointerMoved,
+    PointerPressed,
+    PointerReleased,
+    Scrolled,
+)
+
+_BUTTONS: dict[int, Button] = {
+    glfw.MOUSE_BUTTON_LEFT: "left",
+    glfw.MOUSE_BUTTON_RIGHT: "right",
+    glfw.MOUSE_BUTTON_MIDDLE: "middle",
+}
+_KEYS = {
+    glfw.KEY_ESCAPE: "escape",
+    glfw.KEY_DELETE: "delete",
+    glfw.KEY_BACKSPACE: "backspace",
+    glfw.KEY_HOME: "home",
+    glfw.KEY_TAB: "tab",
+    glfw.KEY_ENTER: "enter",
+    glfw.KEY_SPACE: "space",
+    glfw.KEY_LEFT: "left",
+    glfw.KEY_RIGHT: "right",
+    glfw.KEY_UP: "up",
+    glfw.KEY_DOWN: "down",
+    **{glfw.KEY_F1 + i: f"f{i + 1}" for i in range(12)},
+    **{glfw.KEY_KP_0 + i: f"numpad {i}" for i in range(10)},
+    **{glfw.KEY_0 + i: str(i) for i in range(10)},
+    **{glfw.KEY_A + i: chr(ord("a") + i) for i in range(26)},
+}
+
+
+class Window:
+    """A window with a current OpenGL 3.3 core context and an imgui context; a context manager."""
+
+    def __init__(
+        self, title: str, size: tuple[int, int], *, windowless: bool = False, scale: float | None = None
+    ) -> None:
+        """Open the window.
+
+        Parameters
+        ----------
+        title : str
+            What the title bar says.
+        size : (width, height)
+            In screen units; the framebuffer may be larger.
+        windowless : bool
+            Use no display: the null platform and EGL.
+        scale : float
+            Pixels per pixel of a 1x screen; taken from the monitor when None.
+
+        Raises
+        ------
+        FacepinError
+            When there is no display, or no OpenGL 3.3 on it.
+        """
+        self._events: list[Event] = []
+        self._waiting: list[Callable[[], None]] = []
+        if windowless:
+            glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
+        with _glfw_errors():
+            if not glfw.init():
+                raise FacepinError("no display was found")
+            self._handle = _create(title, size, windowless)
+        glfw.make_context_current(self._handle)
+        self.ctx = moderngl.create_context(context=_Loader())
+        glfw.swap_interval(0 if windowless else 1)
+        self._forced_scale = scale
+        self._windowless = windowless
+        glfw.set_cursor_pos_callback(self._handle, self._on_cursor)
+        glfw.set_mouse_button_callback(self._handle, self._on_button)
+        glfw.set_scroll_callback(self._handle, self._on_scroll)
+        glfw.set_key_callback(self._handle, self._on_key)
+        glfw.set_drop_callback(self._handle, self._on_drop)
+        glfw.set_window_close_callback(self._handle, self._on_close)
+        imgui.create_context()
+        # imgui chains to the callbacks above, so both hear everything.
+        self._address = ctypes.cast(self._handle, ctypes.c_void_p).value or 0
+        imgui.backends.glfw_init_for_opengl(self._address, True)
+        imgui.backends.opengl3_init("#version 330")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        imgui.backends.opengl3_shutdown()
+        imgui.backends.glfw_shutdown()
+        imgui.destroy_context()
+        self.ctx.release()
+        glfw.destroy_window(self._handle)
+        glfw.terminate()
+        glfw.init_hint(glfw.PLATFORM, glfw.ANY_PLATFORM)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the framebuffer in pixels."""
+        width, height = glfw.get_framebuffer_size(self._handle)
+        return int(width), int(height)
+
+    @property
+    def pixel_ratio(self) -> float:
+        """Framebuffer pixels per screen unit (imgui's unit): 2 on a Retina display, 1 elsewhere."""
+        return float(self.size[0] / max(glfw.get_window_size(self._handle)[0], 1))
+
+    @property
+    def scale(self) -> float:
+        """Framebuffer pixels per pixel of a 1x screen: how large text and markers should be drawn."""
+        if self._forced_scale is not None:
+            return self._forced_scale
+        return float(max(glfw.get_window_content_scale(self._handle)[0], 0.5))
+
+    def set_title(self, title: str) -> None:
+        """Say `title` in the title bar."""
+        glfw.set_window_title(self._handle, title)
+
+    def poll(self, wait: float | None = None) -> list[Event]:
+        """Return what happened since the last call, oldest first.
+
+        Parameters
+        ----------
+        wait : float
+            Sleep until something happens, at most this many seconds; None returns at once.
+        """
+        if wait is None or self._events or self._windowless:
+            glfw.poll_events()
+        else:
+            glfw.wait_events_timeout(wait)
+        events, self._events = self._events, []
+        return events
+
+    def inject(self, *events: Event) -> None:
+        """Make events happen as if the user had caused them, for imgui too."""
+        address = self._address
+        for event in events:
+            match event:
+                case PointerMoved(x, y):
+                    imgui.backends.glfw_cursor_pos_callback(address, x / self.pixel_ratio, y / self.pixel_ratio)
+                case PointerPressed(button=button) | PointerReleased(button=button):
+                    code = next(code for code, name in _BUTTONS.items() if name == button)
+                    action = glfw.PRESS if isinstance(event, PointerPressed) else glfw.RELEASE
+                    imgui.backends.glfw_mouse_button_callback(address, code, action, 0)
+                case Scrolled(steps=steps):
+                    imgui.backends.glfw_scroll_callback(address, 0.0, steps)
+                case _:
+                    pass
+            self._events.append(event)
+
+    def begin_frame(self) -> None:
+        """Start imgui's frame."""
+        imgui.backends.opengl3_new_frame()
+        imgui.backends.glfw_new_frame()
+        imgui.new_frame()
+
+    def end_frame(self) -> None:
+        """Draw imgui over what is in the framebuffer, and show it."""
+        imgui.render()
+        imgui.backends.opengl3_render_draw_data(imgui.get_draw_data())
+        glfw.swap_buffers(self._handle)
+
+    def _modifiers(self) -> Modifiers:
+        def held(*keys: int) -> bool:
+            return any(glfw.get_key(self._handle, key) == glfw.PRESS for key in keys)
+
+        return Modifiers(
+            shift=held(glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT),
+            control=held(
+                glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL, glfw.KEY_LEFT_SUPER, glfw.KEY_RIGHT_SUPER
+            ),
+            alt=held(glfw.KEY_LEFT_ALT, glfw.KEY_RIGHT_ALT),
+        )
+
+    def _cursor(self) -> tuple[float, float]:
+        x, y = glfw.get_cursor_pos(self._handle)
+        return x * self.pixel_ratio, y * self.pixel_ratio
+
+    def _on_cursor(self, _: object, x: float, y: float) -> None:
+        self._events.append(PointerMoved(x * self.pixel_ratio, y * self.pixel_ratio))
+
+    def _on_button(self, _: object, button: int, action: int, __: int) -> None:
+        if button not in _BUTTONS:
+            return
+        x, y = self._cursor()
+        if action == glfw.PRESS:
+            self._events.append(PointerPressed(x, y, _BUTTONS[button], self._modifiers()))
+        else:
+            self._events.append(PointerReleased(x, y, _BUTTONS[button]))
+
+    def _on_scroll(self, _: object, __: float, steps: float) -> None:
+        x, y = self._cursor()
+        self._events.append(Scrolled(x, y, steps))
+
+    def _on_key(self, _: object, key: int, scancode: int, action: int, __: int) -> None:
+        if action == glfw.RELEASE:
+            return
+        name = _KEYS.get(key)
+        if glfw.KEY_A <= key <= glfw.KEY_Z:
+            # What the keyboard's own layout writes there: Ctrl+Z is where the user's Z is.
+            written = glfw.get_key_name(key, scancode)
+            name = written.lower() if written and written.isascii() and written.isalpha() else name
+        if name is not None:
+            self._events.append(KeyPressed(name, self._modifiers()))
+        elif glfw.get_key_name(key, scancode) == "?":
+            self._events.append(KeyPressed("?", self._modifiers()))
+
+    def _on_drop(self, _: object, paths: list[str]) -> None:
+        self._events.append(FilesDropped(tuple(Path(path) for path in paths)))
+
+    def _on_close(self, handle: object) -> None:
+        # Whether the window really closes is decided by who reads the event.
+        glfw.set_window_should_close(handle, False)
+        self._events.append(CloseRequested())
+
+
+class _Loader:
+    """Gives moderngl the OpenGL functions of glfw's current context, on every platform alike."""
+
+    def load_opengl_function(self, name: str) -> int:
+        return ctypes.cast(glfw.get_proc_address(name), ctypes.c_void_p).value or 0
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def release(self) -> None:
+        """Leave the context alone: the window owns it."""
+
+
+class _glfw_errors:  # noqa: N801 - reads as a statement, like contextlib.suppress
+    """Turns glfw's warnings into FacepinError inside a `with` block."""
+
+    def __enter__(self) -> None:
+        self._before = glfw.ERROR_REPORTING
+        glfw.ERROR_REPORTING = "exception"
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        glfw.ERROR_REPORTING = self._before
+        if isinstance(error, glfw.GLFWError):
+            raise FacepinError(f"no window could be opened: {error}") from error
+
+
+def _create(title: str, size: tuple[int, int], windowless: bool) -> object:
+    glfw.default_window_hints()
+    glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, 3)
+    glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, 3)
+    glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
+    glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
+    glfw.window_hint(glfw.SCALE_TO_MONITOR, True)
+    if windowless:
+        glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
+    handle = glfw.create_window(*size, title, None, None)
+    if not handle:
+        raise FacepinError("no window could be opened: OpenGL 3.3 is needed")
+    return handle

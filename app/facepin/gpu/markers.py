@@ -37,7 +37,7 @@ STYLES: dict[MarkerState, MarkerStyle] = {
     MarkerState.SELECTED: MarkerStyle((0.98, 0.62, 0.24), 6.0, 0.0),
     MarkerState.HELD: MarkerStyle((0.98, 0.62, 0.24), 6.5, 0.6),
 }
-"""White and the orange accent differ in lightness as well as in hue, so they are told apart without colour vision."""
+"""White and the accent differ in lightness as well as in hue: told apart without colour vision."""
 
 HIDDEN_STRENGTH = 0.3
 """Opacity of what lies behind the face."""

@@ -115,7 +115,7 @@ def draw_picture(
                 w, h = min(step, width - x), min(step, height - y)
                 canvas.resize(w * factor, h * factor)
                 framing = tile(whole, x * factor, y * factor, w * factor, h * factor)
-                mesh.draw_framed(canvas.framebuffer, framing, background=not transparent)
+                mesh.draw_framed(canvas.framebuffer, framing, fine=True, background=not transparent)
                 picture[height - y - h : height - y, x : x + w] = _averaged(canvas.read(), factor)
     finally:
         canvas.release()

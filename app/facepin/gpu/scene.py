@@ -10,11 +10,15 @@ from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.rig import Rig
 from facepin.core.topology import DrawRun, draw_order
+from facepin.gpu.background import Background
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.programs import load_program
 
 CLAY = (0.70, 0.66, 0.63)
 """Base colour, sRGB, of what has no colour of its own."""
+
+GLOSSY = 0.3
+"""Roughness below which a highlight is too small to be computed at vertices."""
 
 
 @dataclass(frozen=True)
@@ -37,31 +41,17 @@ class Scene:
     def __init__(self, ctx: moderngl.Context, rig: Rig) -> None:
         self.ctx = ctx
         self.rig = rig
-        self.mesh_program = load_program(ctx, "mesh")
         order = draw_order(rig)
         self.runs = material_runs(rig, order.runs)
         self.indices = ctx.buffer(order.triangles)
         self.albedo = ctx.buffer(vertex_albedo(rig))
-        self._background_program = load_program(ctx, "background")
-        self._background = ctx.vertex_array(self._background_program, [])
-
-    def draw_background(self, framing: Framing) -> None:
-        """Fill what is still empty; `framing` is in use already."""
-        self._background_program["ray_of_pixel"] = framing.ray_of_pixel
-        self._background_program["half_picture"] = framing.half_picture
-        self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.ctx.depth_func = "<="
-        self._background.render(moderngl.TRIANGLES, vertices=3)
+        self.fine_program = load_program(ctx, "mesh")
+        self.fast_program = load_program(ctx, "mesh_fast")
+        self.background = Background(ctx)
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        for item in (
-            self.indices,
-            self.albedo,
-            self._background,
-            self._background_program,
-            self.mesh_program,
-        ):
+        for item in (self.indices, self.albedo, self.fine_program, self.fast_program, self.background):
             item.release()
 
 
@@ -74,15 +64,13 @@ class PaneMesh:
         self._positions = scene.ctx.buffer(reserve=size, dynamic=True)
         self._normals = scene.ctx.buffer(reserve=size, dynamic=True)
         self._uploaded: tuple[Points, Points] | None = None
-        self._mesh = scene.ctx.vertex_array(
-            scene.mesh_program,
-            [
-                (self._positions, "3f", "position"),
-                (self._normals, "3f", "normal"),
-                (scene.albedo, "4f2", "albedo"),
-            ],
-            scene.indices,
-        )
+        content = [
+            (self._positions, "3f", "position"),
+            (self._normals, "3f", "normal"),
+            (scene.albedo, "4f2", "albedo"),
+        ]
+        self._fine = scene.ctx.vertex_array(scene.fine_program, content, scene.indices)
+        self._fast = scene.ctx.vertex_array(scene.fast_program, content, scene.indices)
 
     def upload(self, positions: Points, normals: Points) -> bool:
         """Take over a pose; do nothing when these very arrays are there already.
@@ -90,7 +78,7 @@ class PaneMesh:
         Parameters
         ----------
         positions, normals : (n, 3) float32
-            Never changed afterwards by the caller; normals have any length.
+            Not changed afterwards by the caller; normals have any length.
 
         Returns
         -------
@@ -111,6 +99,7 @@ class PaneMesh:
         viewport: Viewport,
         camera: Camera,
         *,
+        fine: bool = True,
         background: bool = True,
     ) -> None:
         """Draw background and face into a rectangle of `framebuffer`, erasing what was there.
@@ -123,38 +112,48 @@ class PaneMesh:
             Where the picture goes.
         camera : Camera
             Sees the face.
+        fine : bool
+            Compute light at every pixel; otherwise at the vertices of matt, closed surfaces, which is what
+            keeps a drag smooth on a machine without a graphics card.
         background : bool
             Draw the studio wall; otherwise what is not the face stays transparent black.
         """
         framing = frame(camera, viewport, framebuffer.height)
-        self.draw_framed(framebuffer, framing, background=background)
+        self.draw_framed(framebuffer, framing, fine=fine, background=background)
 
-    def draw_framed(self, framebuffer: moderngl.Framebuffer, framing: Framing, *, background: bool) -> None:
+    def draw_framed(
+        self, framebuffer: moderngl.Framebuffer, framing: Framing, *, fine: bool, background: bool
+    ) -> None:
         """Draw like `draw`, for a framing that may be a tile of a larger picture."""
-        ctx, program = self.scene.ctx, self.scene.mesh_program
+        ctx, scene = self.scene.ctx, self.scene
         framing.use(framebuffer)
         framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=framing.rectangle)
-        program["to_view"] = column_major(framing.to_view)
-        program["to_clip"] = column_major(framing.to_clip)
-        program["ray_of_pixel"] = framing.ray_of_pixel
-        program["sky"] = tuple(framing.to_view[:3, 1])
+        for program in (scene.fine_program, scene.fast_program):
+            program["to_view"] = column_major(framing.to_view)
+            program["to_clip"] = column_major(framing.to_clip)
+            program["sky"] = tuple(framing.to_view[:3, 1])
+        scene.fine_program["ray_of_pixel"] = framing.ray_of_pixel
         ctx.depth_func = "<"
         ctx.front_face = "ccw"
-        for run in self.scene.runs:
+        for run in scene.runs:
             if run.hidden is None:
                 ctx.enable_only(moderngl.DEPTH_TEST)
             else:
                 ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
                 ctx.cull_face = run.hidden
+            program, mesh = scene.fine_program, self._fine
+            if run.hidden is not None and run.roughness >= GLOSSY and not fine:
+                program, mesh = scene.fast_program, self._fast
+                program["facing"] = 1.0 if run.hidden == "back" else -1.0
             program["tint"] = run.tint
             program["roughness"] = run.roughness
-            self._mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
+            mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
         if background:
-            self.scene.draw_background(framing)
+            scene.background.draw_framed(framing)
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        for item in (self._mesh, self._positions, self._normals):
+        for item in (self._fine, self._fast, self._positions, self._normals):
             item.release()
 
 

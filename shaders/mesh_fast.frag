@@ -1,0 +1,11 @@
+#version 330 core
+// See mesh_fast.vert.
+
+in vec3 lit;
+
+out vec4 pixel;
+
+void main()
+{
+    pixel = vec4(lit, 1.0);
+}

@@ -20,6 +20,7 @@ Delta = ArrayLike | tuple[ArrayLike, ArrayLike]
 FARTHEST = 1e9
 """Largest coordinate taken: its fourth power, met in squared normals, still fits a float32."""
 
+LARGEST_WEIGHT = 1e6
 MOST_SHAPES = 10_000
 
 
@@ -115,7 +116,7 @@ def build_rig(
 
 
 def fan_triangles(corners: Indices, face_sizes: Indices) -> Indices:
-    """Cut every face into the fan around its first corner: (sum of sizes - 2 m, 3) int32, in face order."""
+    """Cut every face into the fan around its first corner: (sum of sizes − 2 m, 3) int32, in face order."""
     starts = np.cumsum(face_sizes) - face_sizes
     per_face = face_sizes - 2
     first = np.repeat(starts, per_face)
@@ -289,8 +290,10 @@ def _still_remarks(still: list[int]) -> list[tuple[str, tuple[int, ...]]]:
 def _numbers(values: ArrayLike | None, shape: tuple[int, ...], default: Any, where: str) -> Floats:
     """Return `values` as finite float64 of `shape`, or the default spread over it."""
     array = np.array(np.broadcast_to(default, shape) if values is None else values, np.float64)
-    if array.shape != shape or not np.isfinite(array).all():
-        raise FacepinError(f"{where} must be {shape} finite numbers, found {array.shape}")
+    if array.shape != shape or not (np.abs(array) <= LARGEST_WEIGHT).all():
+        raise FacepinError(
+            f"{where} must be {shape} finite numbers up to {LARGEST_WEIGHT:.0e}, found {array.shape}"
+        )
     return array
 
 

@@ -1,5 +1,5 @@
-"""Rigs, models, poses and pins as files.  The doors are `open_rig`, `write_model` and `pose_file`."""
+"""Rigs, models, poses and pins as files: `open_rig`, `write_model`; modules `pose_file` and `pins_file`."""
 
-from facepin.files.formats import READERS, open_rig
+from facepin.files.formats import READERS, WRITERS, open_rig, write_model
 
-__all__ = ["READERS", "open_rig"]
+__all__ = ["READERS", "WRITERS", "open_rig", "write_model"]

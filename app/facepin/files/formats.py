@@ -4,9 +4,12 @@ import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
 from facepin.files.gltf_reader import read_gltf
+from facepin.files.gltf_writer import write_glb
+from facepin.files.mesh_writers import write_obj, write_ply, write_stl
 from facepin.files.npz_reader import read_npz
 from facepin.files.obj_folder import read_obj_file, read_obj_folder
 from facepin.files.options import Progress, ReadOptions, no_progress
@@ -20,6 +23,13 @@ READERS: dict[str, Callable[[Path, ReadOptions], Rig]] = {
     ".gltf": read_gltf,
     ".vrm": read_gltf,
     ".npz": read_npz,
+}
+
+WRITERS: dict[str, Callable[[Rig, Floats, Path], None]] = {
+    ".glb": write_glb,
+    ".obj": write_obj,
+    ".ply": write_ply,
+    ".stl": write_stl,
 }
 
 
@@ -66,6 +76,24 @@ def open_rig(
     return rig
 
 
+def write_model(rig: Rig, weights: Floats, path: str | os.PathLike[str]) -> None:
+    """Write a face posed with `weights` (k,); the suffix of `path` chooses the format, see `WRITERS`.
+
+    A .glb keeps the rig: neutral, shapes, and `weights` as its own weights.  The others hold the posed mesh.
+
+    Raises
+    ------
+    FacepinError
+        For another suffix, or if the file cannot be written.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in WRITERS:
+        found = suffix or "files without a suffix"
+        raise FacepinError(f"{path.name}: no writer for {found!r}, there are: {known(WRITERS)}")
+    WRITERS[suffix](rig, weights, path)
+
+
 def _reader_for(path: Path, neutral: str | None) -> Callable[[Path, ReadOptions], Rig]:
     if "\0" in str(path) or not path.exists():
         raise FacepinError(f"{ascii(str(path))[1:-1]}: no such file or folder")
@@ -75,9 +103,8 @@ def _reader_for(path: Path, neutral: str | None) -> Callable[[Path, ReadOptions]
         raise FacepinError(f"{path}: neither a file nor a folder")
     suffix = path.suffix.lower()
     if suffix not in READERS:
-        raise FacepinError(
-            f"{path.name}: no reader for {suffix or 'files without a suffix'!r}, there are: {known(READERS)}"
-        )
+        found = suffix or "files without a suffix"
+        raise FacepinError(f"{path.name}: no reader for {found!r}, there are: {known(READERS)}")
     if neutral is not None and suffix != ".obj":
         raise FacepinError(
             f"{path.name}: a neutral can be named for a folder of .obj files only, found {suffix}"

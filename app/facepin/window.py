@@ -53,6 +53,10 @@ _KEYS = {
 }
 
 
+class NoDisplay(FacepinError):
+    """There is no screen to open a window on."""
+
+
 class Window:
     """A window with a current OpenGL 3.3 core context and an imgui context; a context manager."""
 
@@ -74,28 +78,33 @@ class Window:
 
         Raises
         ------
+        NoDisplay
+            When there is no screen.
         FacepinError
-            When there is no display, or no OpenGL 3.3 on it.
+            When there is no OpenGL 3.3 on it.
         """
         self._events: list[Event] = []
         self._waiting: list[Callable[[], None]] = []
         if windowless:
             glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
-        with _glfw_errors():
+        with _Complaints() as complaints:
             if not glfw.init():
-                raise FacepinError("no display was found")
+                raise NoDisplay(f"no display was found ({complaints})")
             self._handle = _create(title, size, windowless)
+            if not self._handle:
+                glfw.terminate()
+                raise FacepinError(f"no window with OpenGL 3.3 could be opened ({complaints})")
         glfw.make_context_current(self._handle)
         self.ctx = moderngl.create_context(context=_Loader())
         glfw.swap_interval(0 if windowless else 1)
         self._forced_scale = scale
+        # Where the last event left the mouse.  Asking for it in a callback would tell where the mouse is by now:
+        # after a slow frame, far from where the button went down.
+        x, y = glfw.get_cursor_pos(self._handle)
+        self._cursor = (x * self.pixel_ratio, y * self.pixel_ratio)
         self._windowless = windowless
-        glfw.set_cursor_pos_callback(self._handle, self._on_cursor)
-        glfw.set_mouse_button_callback(self._handle, self._on_button)
-        glfw.set_scroll_callback(self._handle, self._on_scroll)
-        glfw.set_key_callback(self._handle, self._on_key)
-        glfw.set_drop_callback(self._handle, self._on_drop)
-        glfw.set_window_close_callback(self._handle, self._on_close)
+        if not windowless:  # there, events come from `inject` alone
+            self._listen()
         imgui.create_context()
         # imgui chains to the callbacks above, so both hear everything.
         self._address = ctypes.cast(self._handle, ctypes.c_void_p).value or 0
@@ -154,7 +163,7 @@ class Window:
         return events
 
     def inject(self, *events: Event) -> None:
-        """Make events happen as if the user had caused them, for imgui too."""
+        """Make events happen in a windowless window as if the user had caused them, for imgui too."""
         address = self._address
         for event in events:
             match event:
@@ -182,6 +191,14 @@ class Window:
         imgui.backends.opengl3_render_draw_data(imgui.get_draw_data())
         glfw.swap_buffers(self._handle)
 
+    def _listen(self) -> None:
+        glfw.set_cursor_pos_callback(self._handle, self._on_cursor)
+        glfw.set_mouse_button_callback(self._handle, self._on_button)
+        glfw.set_scroll_callback(self._handle, self._on_scroll)
+        glfw.set_key_callback(self._handle, self._on_key)
+        glfw.set_drop_callback(self._handle, self._on_drop)
+        glfw.set_window_close_callback(self._handle, self._on_close)
+
     def _modifiers(self) -> Modifiers:
         def held(*keys: int) -> bool:
             return any(glfw.get_key(self._handle, key) == glfw.PRESS for key in keys)
@@ -194,24 +211,21 @@ class Window:
             alt=held(glfw.KEY_LEFT_ALT, glfw.KEY_RIGHT_ALT),
         )
 
-    def _cursor(self) -> tuple[float, float]:
-        x, y = glfw.get_cursor_pos(self._handle)
-        return x * self.pixel_ratio, y * self.pixel_ratio
-
     def _on_cursor(self, _: object, x: float, y: float) -> None:
-        self._events.append(PointerMoved(x * self.pixel_ratio, y * self.pixel_ratio))
+        self._cursor = (x * self.pixel_ratio, y * self.pixel_ratio)
+        self._events.append(PointerMoved(*self._cursor))
 
     def _on_button(self, _: object, button: int, action: int, __: int) -> None:
         if button not in _BUTTONS:
             return
-        x, y = self._cursor()
+        x, y = self._cursor
         if action == glfw.PRESS:
             self._events.append(PointerPressed(x, y, _BUTTONS[button], self._modifiers()))
         else:
             self._events.append(PointerReleased(x, y, _BUTTONS[button]))
 
     def _on_scroll(self, _: object, __: float, steps: float) -> None:
-        x, y = self._cursor()
+        x, y = self._cursor
         self._events.append(Scrolled(x, y, steps))
 
     def _on_key(self, _: object, key: int, scancode: int, action: int, __: int) -> None:
@@ -252,17 +266,21 @@ class _Loader:
         """Leave the context alone: the window owns it."""
 
 
-class _glfw_errors:  # noqa: N801 - reads as a statement, like contextlib.suppress
-    """Turns glfw's warnings into FacepinError inside a `with` block."""
+class _Complaints:
+    """Collects what glfw complains of inside a `with` block, instead of having it printed."""
 
-    def __enter__(self) -> None:
-        self._before = glfw.ERROR_REPORTING
-        glfw.ERROR_REPORTING = "exception"
+    def __init__(self) -> None:
+        self._lines: list[str] = []
 
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        glfw.ERROR_REPORTING = self._before
-        if isinstance(error, glfw.GLFWError):
-            raise FacepinError(f"no window could be opened: {error}") from error
+    def __enter__(self) -> Self:
+        glfw.set_error_callback(lambda code, text: self._lines.append(text.decode(errors="replace")))
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        glfw.set_error_callback(None)
+
+    def __str__(self) -> str:
+        return "; ".join(self._lines) or "glfw gives no reason"
 
 
 def _create(title: str, size: tuple[int, int], windowless: bool) -> object:
@@ -274,7 +292,4 @@ def _create(title: str, size: tuple[int, int], windowless: bool) -> object:
     glfw.window_hint(glfw.SCALE_TO_MONITOR, True)
     if windowless:
         glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
-    handle = glfw.create_window(*size, title, None, None)
-    if not handle:
-        raise FacepinError("no window could be opened: OpenGL 3.3 is needed")
-    return handle
+    return glfw.create_window(*size, title, None, None)

@@ -77,7 +77,7 @@ def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any
 def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:
     """Draw what the last solve was like."""
     if solved is None:
-        imgui.text_disabled("Press on the face and drag: the solver's figures appear here.")
+        _sentence("Drag a point of the face: the solver's figures appear here.")
         return
     low, high = rig.limits.T
     outside = int(np.count_nonzero((pose.weights < low - 1e-6) | (pose.weights > high + 1e-6)))

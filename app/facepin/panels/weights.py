@@ -103,7 +103,7 @@ def _row(rig: Rig, pose: Pose, j: int, names: float, scale: float) -> Edit | Non
     """Draw name, slider and number of one shape."""
     weight = float(pose.weights[j])
     low, high = (float(limit) for limit in rig.limits[j])
-    outside = not low - 1e-9 <= weight <= high + 1e-9
+    outside = not low - ACTIVE <= weight <= high + ACTIVE
     active = abs(weight) > ACTIVE
     name = rig.shape_names[j]
     imgui.push_id(j)
@@ -129,7 +129,7 @@ def _row(rig: Rig, pose: Pose, j: int, names: float, scale: float) -> Edit | Non
     imgui.push_style_color(imgui.Col_.frame_bg_hovered, imgui.ImVec4(1, 1, 1, 0.06))
     imgui.push_style_color(imgui.Col_.frame_bg_active, imgui.ImVec4(1, 1, 1, 0.09))
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
-    changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f")
+    changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f" if active else "0.00")
     imgui.pop_style_color(6)
     reset = reset or (imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0))
     finished = imgui.is_item_deactivated_after_edit()
@@ -165,7 +165,7 @@ def _bar(
         imgui.ImVec2(at.x, top), imgui.ImVec2(at.x + width, bottom), packed(FRAME), 3 * scale
     )
     zero = x(min(max(0.0, low), high))
-    if abs(weight) > 1e-4:
+    if abs(weight) > ACTIVE:
         a, b = sorted((zero, x(weight)))
         fill = packed(ACCENT_DIM if colour is ACCENT else colour, 1.0 if colour is ACCENT else 0.45)
         draw.add_rect_filled(imgui.ImVec2(a, top), imgui.ImVec2(b, bottom), fill, 2 * scale)

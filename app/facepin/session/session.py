@@ -39,7 +39,7 @@ class Session:
         self._history = History(Work((pose or rest_pose(rig),) * len(self._solvers)))
         self._preview: Work | None = None
         self.solved: list[Solved | None] = [None] * len(self._solvers)
-        """The last answer of each pane's solver."""
+        """The answer of each pane's solver that its pose shows, None where the pose is not a solver's."""
 
     @property
     def poses(self) -> Poses:
@@ -96,16 +96,16 @@ class Session:
 
     def cancel(self) -> None:
         """Drop the gesture in progress; the poses are exactly those before it."""
-        self._preview = None
+        self._forget()
 
     def undo(self) -> bool:
         """Take the last undo step back; False when there is none."""
-        self._preview = None
+        self._forget()
         return self._history.undo()
 
     def redo(self) -> bool:
         """Bring the last undone step back; False when there is none."""
-        self._preview = None
+        self._forget()
         return self._history.redo()
 
     def choose_solver(self, pane: int, choice: SolverChoice) -> None:
@@ -127,6 +127,10 @@ class Session:
         poses = (*work.poses[:pane], pose, *work.poses[pane + 1 :])
         self._history.commit(f"Solve with {choice.kind.title}", replace(work, poses=poses))
 
+    def _forget(self) -> None:
+        self._preview = None
+        self.solved = [None] * len(self.solved)
+
     @property
     def _work(self) -> Work:
         return self._preview or self._history.current
@@ -134,6 +138,7 @@ class Session:
     def _edited(self, before: Work, edit: Edit) -> Work:
         """Return the work after an edit of `before`."""
         if edit.weights is not None:
+            self.solved[self.active] = None
             pose = snapped(self.rig, before.poses[self.active].with_weights(edit.weights))
             return Work((*before.poses[: self.active], pose, *before.poses[self.active + 1 :]))
         if edit.pins is None:

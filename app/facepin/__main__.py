@@ -1,0 +1,99 @@
+"""The command line: `facepin [RIG]` opens the window, `facepin COMMAND …` does one thing without it."""
+
+import os
+
+# Two BLAS threads make products of this size slower.  Has to be said before numpy is imported.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import sys
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from facepin import __version__
+from facepin.commands import COMMANDS, first_pose, solver_choices
+from facepin.core.errors import FacepinError
+
+
+class _Parser(ArgumentParser):
+    """Says what is wrong in one line, like every other error of the program."""
+
+    def error(self, message: str) -> NoReturn:
+        raise FacepinError(f"{message} (see {self.prog} --help)")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program; return its exit status: 0, or 2 after an error in one line on stderr."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        if words and words[0] in COMMANDS:
+            command = COMMANDS[words[0]]
+            parser = _Parser(prog=f"facepin {words[0]}", description=command.help)
+            command.add_options(parser)
+            command.run(parser.parse_args(words[1:]))
+        else:
+            _window(_window_parser().parse_args(words))
+    except FacepinError as error:
+        print(f"facepin: {error}", file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        sys.stderr.close()  # whoever read the output has gone; there is no one to tell
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+def _window_parser() -> ArgumentParser:
+    lines = [f"  {name:9} {command.help}" for name, command in COMMANDS.items()]
+    parser = _Parser(
+        prog="facepin",
+        description="Pose a blendshape face by pinning points on it and dragging them.",
+        epilog="commands (each has --help):\n" + "\n".join(lines),
+        formatter_class=RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"facepin {__version__}")
+    parser.add_argument(
+        "rig", nargs="?", type=Path, metavar="RIG", help="face to open (default: the built-in one)"
+    )
+    parser.add_argument("--solver", metavar="KEY", help="solver to begin with (default: the last one used)")
+    parser.add_argument("--pins", type=Path, metavar="FILE", help="pins file to begin with")
+    parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file to begin with")
+    return parser
+
+
+def _window(options: Namespace) -> None:
+    """Open the window; without a display, run the demonstration instead."""
+    if options.rig is not None and not options.rig.exists():
+        raise FacepinError(f"'{options.rig}' is neither a rig nor a command (commands: {', '.join(COMMANDS)})")
+    from platformdirs import user_config_path, user_pictures_path
+
+    from facepin.files.preferences import read_preferences
+    from facepin.main_loop import Start, run
+    from facepin.solvers import SOLVERS
+    from facepin.window import NoDisplay, Window
+
+    settings = user_config_path("facepin", appauthor=False)
+    remembered = read_preferences(settings / "preferences.json")[0].solver
+    key = options.solver or (remembered if remembered in SOLVERS else "transpose")
+    start = Start(
+        solver_choices(key, [], False)[:1],
+        options.rig,
+        lambda rig: first_pose(rig, options.pose, options.pins),
+        settings,
+        user_pictures_path() / "Facepin",
+    )
+    try:
+        window = Window("Facepin", (1280, 720))
+    except NoDisplay as error:
+        from facepin.figures.demonstration import demonstrate
+
+        folder = demonstrate(Path("facepin-demonstration"))
+        print(f"facepin: {error}; the built-in demonstration was run instead: see {folder.resolve()}")
+        return
+    with window:
+        run(window, start)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,114 @@
+"""Drives the whole application without a screen: events in, frames out."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from facepin.core.events import KeyPressed, Modifiers, PointerMoved, PointerPressed, PointerReleased
+from facepin.core.pose import Pose
+from facepin.core.rig import Rig
+from facepin.desk import Desk
+from facepin.main_loop import Frame, Start, frames
+from facepin.session.session import Session
+from facepin.session.solving import choose
+from facepin.window import Window
+
+
+@dataclass
+class App:
+    """The running program, one frame at a time."""
+
+    window: Window
+    loop: Iterator[Frame]
+    frame: Frame
+
+    @property
+    def desk(self) -> Desk:
+        return self.frame.desk
+
+    @property
+    def session(self) -> Session:
+        assert self.desk.session is not None
+        return self.desk.session
+
+    def step(self, *events: object, frames: int = 1) -> None:
+        """Let events happen, then draw some frames."""
+        self.window.inject(*events)
+        for _ in range(frames):
+            self.frame = next(self.loop)
+
+    def until(self, condition: Callable[[], bool], frames: int = 2000) -> None:
+        """Draw frames until something is so."""
+        for _ in range(frames):
+            if condition():
+                return
+            self.frame = next(self.loop)
+        raise AssertionError("it never came to pass")
+
+    def move(self, x: float, y: float) -> None:
+        self.step(PointerMoved(x, y))
+
+    def press(self, x: float, y: float, button: str = "left", **held: bool) -> None:
+        # imgui learns where the mouse is a frame before it learns of the press.
+        self.step(PointerMoved(x, y), frames=2)
+        self.step(PointerPressed(x, y, button, Modifiers(**held)))
+
+    def release(self, x: float, y: float, button: str = "left") -> None:
+        self.step(PointerReleased(x, y, button), frames=2)
+
+    def drag(
+        self, start: tuple[float, float], end: tuple[float, float], button: str = "left", moves: int = 30, **held: bool
+    ) -> None:
+        """Press, move in equal steps, release."""
+        self.press(*start, button, **held)
+        for at in np.linspace(start, end, moves + 1)[1:]:
+            self.move(*at)
+        self.release(*end, button)
+
+    def key(self, key: str, **held: bool) -> None:
+        self.step(KeyPressed(key, Modifiers(**held)), frames=2)
+
+    def pixel_of(self, vertex: int) -> tuple[float, float]:
+        """Where a vertex of the active pane is on the screen."""
+        assert self.desk.stage is not None
+        position = self.desk.stage.positions(self.session.active)[vertex]
+        x, y, _ = self.desk.camera.project(position[None], self.frame.viewport)[0]
+        return float(x), float(y)
+
+    def screenshot(self) -> np.ndarray:
+        """The window as it is shown, (h, w, 3) uint8."""
+        width, height = self.window.size
+        data = self.window.ctx.screen.read(components=3, alignment=1)
+        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
+
+    def save(self, path: Path) -> None:
+        """Write the window as a picture, to look at."""
+        Image.fromarray(self.screenshot()).save(path)
+
+
+@contextmanager
+def running(
+    rig: Path | None = None,
+    solver: str = "transpose",
+    *,
+    size: tuple[int, int] = (1280, 720),
+    scale: float | None = None,
+    settings_folder: Path | None = None,
+    pictures: Path = Path(),
+    first_pose: Callable[[Rig], Pose] | None = None,
+    wait: bool = True,
+) -> Iterator[App]:
+    """Run the application on the null platform with a rig open."""
+    with Window("test", size, windowless=True, scale=scale) as window:
+        start = Start([choose(solver)], rig, first_pose, settings_folder, pictures, native_dialogs=False)
+        loop = frames(window, start)
+        app = App(window, loop, next(loop))
+        if wait:
+            app.until(lambda: app.desk.stage is not None or app.desk.is_error)
+            app.step(frames=4)
+        yield app
+        loop.close()

@@ -25,7 +25,9 @@ class Deformer:
     numbers (where the goal is) into k weights, so all weight changes are sums of three directions q.  A
     deformer remembers the directions it has met, orthonormal, and their images B q.  When a change lies among
     them, the positions are a sum of a few images, whatever the number of shapes; otherwise the new direction
-    is multiplied out and remembered.  When too many are known, it starts over from where it is.
+    is multiplied out and remembered.  When too many are known, or when a gesture changes far fewer weights
+    than they do, it starts over from where it is: what does not move then stays put to the last bit, and its
+    normals need no work.
 
     Nothing is accumulated from frame to frame, so nothing drifts: every answer equals `Rig.evaluate` up to
     float32 rounding, whatever was asked before.
@@ -42,6 +44,7 @@ class Deformer:
         # Rows: positions at the base weights, then the image of each direction, and how far each can reach.
         self._images = np.zeros((1 + MOST_DIRECTIONS, floats), np.float32)
         self._reaches = np.zeros(1 + MOST_DIRECTIONS)
+        self._touched = np.zeros(shapes, np.bool_)
         self._restart(self._base)
         self._weights: Floats = self._base
         self._positions: Points = columns.neutral.reshape(-1, 3)
@@ -70,6 +73,8 @@ class Deformer:
 
     def _mix_of(self, weights: Floats) -> Floats:
         """Multiples of the images that make the positions: 1 of the base, then one for each direction."""
+        if 2 * np.count_nonzero(weights != self._weights) < np.count_nonzero(self._touched):
+            return self._restart(weights)
         moves = self._columns.moves
         change = weights - self._base
         directions = self._directions[: self._known]
@@ -94,6 +99,7 @@ class Deformer:
         self._images[0] = columns.neutral + columns.product(weights)
         self._reaches[0] = columns.extent + columns.moves @ np.abs(weights)
         self._known = 0
+        self._touched[:] = False
         return np.ones(1)
 
     def _learn(self, rest: Floats) -> None:
@@ -102,6 +108,7 @@ class Deformer:
         direction = rest / np.linalg.norm(rest)
         direction -= (known @ direction) @ known  # a second time, for what rounding left
         direction /= np.linalg.norm(direction)
+        self._touched |= direction != 0
         self._directions[self._known] = direction
         self._known += 1
         self._images[self._known] = self._columns.product(direction)

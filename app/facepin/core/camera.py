@@ -43,7 +43,7 @@ class Viewport:
 
 @dataclass(frozen=True)
 class Camera:
-    """A perspective camera that circles a target.  With yaw = pitch = 0 it looks at the face from the front."""
+    """A perspective camera that circles a target.  With no yaw and pitch it sees the face from the front."""
 
     target: tuple[float, float, float] = (0.0, 0.0, 0.0)
     distance: float = 4.0
@@ -60,9 +60,12 @@ class Camera:
     @property
     def axes(self) -> tuple[Floats, Floats, Floats]:
         """Right, up and back of the camera, unit vectors (3,) float64; it looks along −back."""
-        right = np.array([cos(self.yaw), 0.0, -sin(self.yaw)])
-        back = np.array([sin(self.yaw) * cos(self.pitch), sin(self.pitch), cos(self.yaw) * cos(self.pitch)])
-        return right, np.cross(back, right), back
+        sin_yaw, cos_yaw = sin(self.yaw), cos(self.yaw)
+        sin_pitch, cos_pitch = sin(self.pitch), cos(self.pitch)
+        right = np.array([cos_yaw, 0.0, -sin_yaw])
+        up = np.array([-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch])
+        back = np.array([sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch])
+        return right, up, back
 
     @property
     def eye(self) -> Floats:

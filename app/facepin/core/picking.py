@@ -1,12 +1,16 @@
 """Which triangle of a face lies under the cursor."""
 
 from dataclasses import dataclass
+from math import copysign
 
 import numpy as np
-from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats, Indices, Points
 from facepin.core.camera import Camera, Viewport
+from facepin.core.pose import Vector, as_vector
+
+SLACK = 4e-6
+"""Rounding of the float32 sieve, relative to the largest coordinate, with a good margin."""
 
 
 @dataclass(frozen=True)
@@ -16,7 +20,7 @@ class Hit:
     triangle: int
     vertex: int
     """Nearest vertex of that triangle.  Not of the mesh: the other lip can be a millimetre away."""
-    point: tuple[float, float, float]
+    point: Vector
     distance: float
     """From the eye."""
 
@@ -83,56 +87,48 @@ def first_hit(
     two_sided : bool
         Count triangles seen from behind as well.
     """
-    across = _across(direction)
-    drawing = np.asarray(across, np.float32) @ positions.T
-    drawing -= np.asarray(across @ origin, np.float32)[:, None]
+    frame = _frame(direction)
+    u, v, _ = frame
     # A coarse sieve in float32: a triangle all on one side of the dot in x or in y cannot hold it.
-    slack = np.float32(1e-5) * max(float(np.abs(drawing).max(initial=0.0)), float(np.abs(origin).max()))
-    sides = (drawing[0] < -slack) | (drawing[0] > slack) * np.uint8(2)
-    sides |= (drawing[1] < -slack) * np.uint8(4) | (drawing[1] > slack) * np.uint8(8)
-    a, b, c = triangles.T
-    near = np.flatnonzero((sides[a] & sides[b] & sides[c]) == 0)
-    return _nearest_hit(positions, triangles[near], near, origin, direction, nearest, two_sided)
+    x = positions @ u.astype(np.float32) - np.float32(u @ origin)
+    y = positions @ v.astype(np.float32) - np.float32(v @ origin)
+    reach = max(float(positions.max()), -float(positions.min()), float(np.abs(origin).max()))
+    slack = np.float32(SLACK * reach)
+    sides = (x < -slack).view(np.uint8)
+    for bit, side in enumerate((x > slack, y < -slack, y > slack), start=1):
+        sides |= side.view(np.uint8) << np.uint8(bit)
+    corners = sides.take(triangles, mode="clip")
+    numbers = np.flatnonzero((corners[:, 0] & corners[:, 1] & corners[:, 2]) == 0)
+    candidates = triangles[numbers]
 
-
-def _across(direction: Floats) -> Floats:
-    """Two unit vectors (2, 3) at right angles to a direction and to each other, u × v = −direction."""
-    helper = np.zeros(3)
-    helper[np.argmin(np.abs(direction))] = 1.0
-    u = np.cross(helper, direction)
-    u /= np.linalg.norm(u)
-    return np.stack([u, np.cross(u, direction)])
-
-
-def _nearest_hit(
-    positions: Points,
-    candidates: Indices,
-    names: NDArray[np.intp],
-    origin: Floats,
-    direction: Floats,
-    nearest: float,
-    two_sided: bool,
-) -> Hit | None:
-    """Test a few triangles exactly (float64) and return the nearest hit."""
-    frame = np.vstack([_across(direction), direction])
-    # Sums written out: a matrix product may round a shared vertex differently in its two triangles.
-    px, py, pz = np.moveaxis(positions[candidates].astype(np.float64) - origin, 2, 0)
-    x, y, z = (px * f[0] + py * f[1] + pz * f[2] for f in frame)
+    # Exactly, in float64.  Sums are written out, for a matrix product may round the same vertex differently
+    # in two triangles.
+    local = positions[candidates].astype(np.float64) - origin
+    x, y, z = (local[..., 0] * axis[0] + local[..., 1] * axis[1] + local[..., 2] * axis[2] for axis in frame)
     # Twice the area that each edge spans with the dot.  Two triangles that share an edge get the same number
     # with opposite sign, so no ray slips between them.
-    spans = np.roll(x, -1, 1) * np.roll(y, -2, 1) - np.roll(x, -2, 1) * np.roll(y, -1, 1)
-    area = spans.sum(axis=1)
-    inside = (spans >= 0).all(axis=1) & (area > 0)
+    spans = np.stack([x[:, i] * y[:, j] - x[:, j] * y[:, i] for i, j in ((1, 2), (2, 0), (0, 1))])
+    area = spans.sum(axis=0)
+    inside = (spans >= 0).all(axis=0) & (area > 0)
     if two_sided:
-        inside |= (spans <= 0).all(axis=1) & (area < 0)
-    distance = np.full(len(candidates), np.inf)
-    np.divide((spans * z).sum(axis=1), area, out=distance, where=inside)
+        inside |= (spans <= 0).all(axis=0) & (area < 0)
+    distance = np.full(len(numbers), np.inf)
+    np.divide((spans * z.T).sum(axis=0), area, out=distance, where=inside)
     distance[distance < nearest] = np.inf
-    if not np.isfinite(distance).any():
+    best = int(np.argmin(distance)) if len(numbers) else 0
+    if not len(numbers) or distance[best] == np.inf:
         return None
-    best = int(np.argmin(distance))
     point = origin + distance[best] * direction
-    corners = candidates[best]
-    gaps = np.linalg.norm(positions[corners] - point, axis=1)
-    at = (float(point[0]), float(point[1]), float(point[2]))
-    return Hit(int(names[best]), int(corners[np.argmin(gaps)]), at, float(distance[best]))
+    gaps = np.linalg.norm(positions[candidates[best]] - point, axis=1)
+    vertex = int(candidates[best, np.argmin(gaps)])
+    return Hit(int(numbers[best]), vertex, as_vector(point), float(distance[best]))
+
+
+def _frame(direction: Floats) -> Floats:
+    """Return (3, 3) rows u, v and the direction, at right angles, u × v = −direction (Duff et al. 2017)."""
+    x, y, z = direction.tolist()
+    sign = copysign(1.0, z)
+    a = -1.0 / (sign + z)
+    u = (1.0 + sign * x * x * a, sign * x * y * a, -sign * x)
+    v = (-x * y * a, -sign - y * y * a, y)
+    return np.array([u, v, (x, y, z)])

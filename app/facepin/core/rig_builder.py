@@ -7,21 +7,15 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
+from facepin.core.delta_columns import Delta, checked_points, delta_columns
 from facepin.core.errors import FacepinError
-from facepin.core.names import clean_name, clean_names, listed
+from facepin.core.names import clean_name, clean_names
 from facepin.core.rig import Part, Rig
 
-Delta = ArrayLike | tuple[ArrayLike, ArrayLike]
-"""(n, 3) moves of all vertices, or the pair (s,) vertex indices and (s, 3) moves of those."""
-
-FARTHEST = 1e9
-"""Largest coordinate taken: its fourth power, met in squared normals, still fits a float32."""
-
 LARGEST_WEIGHT = 1e6
-MOST_SHAPES = 10_000
+MOST_WARNINGS = 40
 
 
 @dataclass(frozen=True)
@@ -78,7 +72,7 @@ def build_rig(
     """
     name = clean_name(name) or "face"
     where = source.name if source is not None and source.name else name
-    positions = _points(neutral, f"{where}: neutral")
+    positions = checked_points(neutral, f"{where}: neutral")
     if not len(positions):
         raise FacepinError(f"{where}: the neutral has no vertices")
     corner_array, sizes = _faces(where, corners, face_sizes, len(positions))
@@ -90,7 +84,7 @@ def build_rig(
         )
     corner_array, sizes, part_of_face = _grouped(corner_array, sizes, part_of_face)
 
-    raw_names, deltas, notes = _columns(where, shapes, len(positions))
+    raw_names, deltas, notes = delta_columns(where, shapes, len(positions))
     shape_names, name_remarks = clean_names(raw_names)
     remarks = name_remarks + [note.format(*(shape_names[j] for j in at)) for note, at in notes]
     count = len(shape_names)
@@ -110,7 +104,7 @@ def build_rig(
         limits=frozen(allowed, np.float64),
         rest_weights=rest,
         colours=None if colours is None else _colours(where, colours, len(positions)),
-        warnings=(*warnings, *remarks),
+        warnings=_few([*warnings, *remarks]),
         source=source,
     )
 
@@ -125,26 +119,9 @@ def fan_triangles(corners: Indices, face_sizes: Indices) -> Indices:
     return triangles.astype(np.int32)
 
 
-def _points(values: ArrayLike, where: str, vertices: ArrayLike | None = None) -> Points:
-    """Return (n, 3) float32, read-only, all finite and of a size that float32 arithmetic bears.
-
-    `vertices` are the numbers of the rows for the message, where they are not 0, 1, 2 and so on.
-    """
-    array = np.asarray(values)
-    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "fiu":
-        raise FacepinError(f"{where} must be (n, 3) numbers, found {array.dtype} {array.shape}")
-    with np.errstate(over="ignore"):
-        points: Points = frozen(array, np.float32)
-    with np.errstate(invalid="ignore"):
-        wild = ~(np.abs(points) <= FARTHEST)
-    if wild.any():
-        row, axis = np.argwhere(wild)[0]
-        vertex = row if vertices is None else np.asarray(vertices)[row]
-        raise FacepinError(
-            f"{where}: {'xyz'[axis]} of vertex {vertex} is {points[row, axis]}, "
-            f"allowed are finite numbers up to {FARTHEST:.0e}"
-        )
-    return points
+def _few(lines: list[str]) -> tuple[str, ...]:
+    hidden = len(lines) - MOST_WARNINGS
+    return (*lines[:MOST_WARNINGS], *([f"and {hidden} more warnings"] if hidden > 0 else []))
 
 
 def _faces(where: str, corners: ArrayLike, face_sizes: ArrayLike, vertices: int) -> tuple[Indices, Indices]:
@@ -197,103 +174,13 @@ def _parts(looks: Sequence[PartLook], part_of_face: NDArray[np.intp], sizes: Ind
     return tuple(parts)
 
 
-def _columns(
-    where: str, shapes: Iterable[tuple[str, Delta]], vertices: int
-) -> tuple[list[str], csc_array, list[tuple[str, tuple[int, ...]]]]:
-    """Gather the deltas as columns.
-
-    Returns raw names, the (3 n, k) matrix, and remarks with the numbers of the shapes that they speak of.
-    """
-    names: list[str] = []
-    rows: list[Indices] = []
-    moves: list[Points] = []
-    still: list[int] = []
-    equal: list[tuple[int, int]] = []
-    seen: dict[tuple[int, int, float], list[int]] = {}
-    for j, (raw_name, delta) in enumerate(shapes):
-        if j == MOST_SHAPES:
-            raise FacepinError(f"{where}: more than {MOST_SHAPES} shapes")
-        names.append(raw_name)
-        column_rows, column = _column(delta, vertices, f"{where}: shape {clean_name(raw_name) or j}")
-        rows.append(column_rows)
-        moves.append(column)
-        if not len(column):
-            still.append(j)
-            continue
-        twins = seen.setdefault((len(column), int(column_rows[0]), float(column.sum(dtype=np.float64))), [])
-        for i in twins:
-            if np.array_equal(rows[i], column_rows) and np.array_equal(moves[i], column):
-                equal.append((i, j))
-                break
-        else:
-            twins.append(j)
-    if not names:
-        raise FacepinError(f"{where}: no shapes, only a neutral; allowed are one or more")
-
-    starts = np.zeros(len(names) + 1, np.int64)
-    np.cumsum([len(column) for column in moves], out=starts[1:])
-    if starts[-1] <= np.iinfo(np.int32).max:
-        starts = starts.astype(np.int32)
-    matrix = csc_array(
-        (np.concatenate(moves), np.concatenate(rows), starts), shape=(3 * vertices, len(names)), copy=False
-    )
-    matrix.has_sorted_indices = True
-    for array in (matrix.data, matrix.indices, matrix.indptr):
-        array.flags.writeable = False
-    return names, matrix, [*_equal_remarks(equal), *_still_remarks(still)]
-
-
-def _column(delta: Delta, vertices: int, where: str) -> tuple[Indices, Points]:
-    """Return the row numbers, sorted, and the non-zero values of one shape."""
-    if not isinstance(delta, tuple):
-        points = _points(delta, where)
-        if len(points) != vertices:
-            raise FacepinError(f"{where} has {len(points)} vertices, the neutral has {vertices}")
-        flat = points.ravel()
-        kept = np.flatnonzero(flat)
-        return kept.astype(np.int32), flat[kept]
-    chosen, moved = np.asarray(delta[0]), np.asarray(delta[1])
-    if chosen.ndim != 1 or chosen.shape != moved.shape[:1] or (len(chosen) and chosen.dtype.kind not in "iu"):
-        raise FacepinError(f"{where}: {chosen.shape} vertex indices do not fit {moved.shape} moves")
-    points = _points(moved, where, chosen)
-    if not len(chosen):
-        return np.zeros(0, np.int32), np.zeros(0, np.float32)
-    if chosen.min() < 0 or chosen.max() >= vertices:
-        wrong = chosen.min() if chosen.min() < 0 else chosen.max()
-        raise FacepinError(f"{where} moves vertex {wrong}, allowed are 0 to {vertices - 1}")
-    order = np.argsort(chosen, kind="stable")
-    chosen = chosen[order].astype(np.int32)
-    if (np.diff(chosen) == 0).any():
-        raise FacepinError(
-            f"{where} moves vertex {chosen[:-1][np.diff(chosen) == 0][0]} twice, allowed is once"
-        )
-    flat = points[order].ravel()
-    kept = np.flatnonzero(flat)
-    return (3 * chosen[kept // 3] + kept % 3).astype(np.int32), flat[kept]
-
-
-def _equal_remarks(equal: list[tuple[int, int]]) -> list[tuple[str, tuple[int, ...]]]:
-    if not equal:
-        return []
-    pairs = listed(["{} and {}"] * len(equal))
-    numbers = tuple(j for pair in equal for j in pair)[: 2 * pairs.count("{} and {}")]
-    return [(f"equal shapes, which no solver can tell apart: {pairs}", numbers)]
-
-
-def _still_remarks(still: list[int]) -> list[tuple[str, tuple[int, ...]]]:
-    if not still:
-        return []
-    names = listed(["{}"] * len(still))
-    return [(f"shapes that move nothing: {names}", tuple(still[: names.count("{}")]))]
-
-
 def _numbers(values: ArrayLike | None, shape: tuple[int, ...], default: Any, where: str) -> Floats:
     """Return `values` as finite float64 of `shape`, or the default spread over it."""
     array = np.array(np.broadcast_to(default, shape) if values is None else values, np.float64)
-    if array.shape != shape or not (np.abs(array) <= LARGEST_WEIGHT).all():
-        raise FacepinError(
-            f"{where} must be {shape} finite numbers up to {LARGEST_WEIGHT:.0e}, found {array.shape}"
-        )
+    if array.shape != shape:
+        raise FacepinError(f"{where} are {array.shape} numbers, allowed: {shape}")
+    if not (np.abs(array) <= LARGEST_WEIGHT).all():
+        raise FacepinError(f"{where}: allowed are finite numbers up to {LARGEST_WEIGHT:.0e}")
     return array
 
 

@@ -1,10 +1,10 @@
 """Files appear whole or not at all: written under a temporary name in the same folder, then renamed."""
 
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from secrets import token_hex
 
 from facepin.core.errors import FacepinError
 
@@ -32,32 +32,26 @@ def atomic_file(path: Path) -> Iterator[Path]:
     FacepinError
         As `atomic_write`.
     """
-    temporary: Path | None = None
     try:
-        # A link is followed, so that it stays a link.
-        target = path.resolve() if path.is_symlink() else path
-        handle, name = tempfile.mkstemp(target.suffix, f".{target.stem[:40]}-", target.parent)
-        temporary = Path(name)
-        os.close(handle)
-        yield temporary
-        _settle(temporary, target)
-    except OSError as error:
-        raise FacepinError(f"{path}: cannot be written: {error.strerror or error}") from error
-    finally:
-        if temporary is not None:
+        target = path.resolve() if path.is_symlink() else path  # a link stays a link
+        temporary = target.with_name(f".{target.stem[:40]}-{token_hex(4)}{target.suffix}")
+        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        try:
+            yield temporary
+            _settle(temporary, target)
+        finally:
             with suppress(FileNotFoundError):
                 temporary.unlink()
+    except OSError as error:
+        raise FacepinError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
 def _settle(temporary: Path, target: Path) -> None:
-    """Push the content to the disk, give it the permissions a new or the old file has, and rename it."""
+    """Push the content to the disk, give it the permissions of the file that it replaces, and rename it."""
     with temporary.open("rb+") as file:
         os.fsync(file.fileno())
     if target.exists():
-        mode = target.stat().st_mode & 0o777
-    else:
-        umask = os.umask(0)
-        os.umask(umask)
-        mode = 0o666 & ~umask
-    temporary.chmod(mode)
+        if not os.access(target, os.W_OK):
+            raise PermissionError(0, "it is read-only")
+        temporary.chmod(target.stat().st_mode & 0o777)
     temporary.replace(target)

@@ -8,6 +8,9 @@ from typing import Any, NoReturn
 
 from facepin.core.errors import FacepinError
 
+ANY = 2**53
+"""No upper limit: what a JSON number holds exactly."""
+
 
 @dataclass(frozen=True)
 class JsonObject:
@@ -34,16 +37,16 @@ class JsonObject:
         """Return where the value of `key` stands."""
         return f"{self.where} {key}" if self.where.endswith(":") else f"{self.where}.{key}"
 
-    def integer(self, key: str, default: int | None = None, *, low: int = 0, high: int = 2**53) -> int:
+    def integer(self, key: str, default: int | None = None, *, low: int = 0, high: int = ANY) -> int:
         """Return a whole number within `low` .. `high`."""
         value = self.values.get(key, default)
         if type(value) is float and value.is_integer():
             value = int(value)
         if type(value) is not int or not low <= value <= high:
-            self.refuse(key, f"a whole number {low} to {high}")
+            self.refuse(key, f"a whole number {low} {'to ' + str(high) if high < ANY else 'or more'}")
         return value
 
-    def optional_integer(self, key: str, *, high: int = 2**53) -> int | None:
+    def optional_integer(self, key: str, *, high: int = ANY) -> int | None:
         """Return a whole number within 0 .. `high`, or None where the key is missing."""
         return self.integer(key, high=high) if key in self.values else None
 
@@ -64,7 +67,7 @@ class JsonObject:
             or (count is not None and len(found) != count)
             or not _all_finite(found)
         ):
-            self.refuse(key, f"a list of {count if count is not None else 'any number of'} finite numbers")
+            self.refuse(key, f"a list of {'' if count is None else f'{count} '}finite numbers")
         return [float(value) for value in found]
 
     def text(self, key: str, default: str | None = None) -> str:

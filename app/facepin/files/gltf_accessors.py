@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
+from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
-from facepin.core.rig_builder import Delta
 from facepin.files.checked_json import JsonObject
 from facepin.files.gltf_document import COMPRESSIONS, GltfDocument, refuse_compression
 

@@ -1,6 +1,5 @@
 """Rigs from .glb, .gltf and .vrm files: morph targets become shapes, node transforms are baked in."""
 
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,18 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats, Points
+from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
-from facepin.core.rig_builder import Delta, PartLook, build_rig
+from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files.checked_json import JsonObject
 from facepin.files.gltf_accessors import accessor_count, read_delta, read_floats, read_indices
 from facepin.files.gltf_document import COMPRESSIONS, GltfDocument, read_document, refuse_compression
 from facepin.files.gltf_materials import linear_to_srgb, material_factor, part_look
 from facepin.files.gltf_scene import Placed, placed_meshes
+from facepin.files.gltf_targets import ShapeKey, rest_weights, shape_keys
 from facepin.files.options import ReadOptions
-
-ShapeKey = tuple[str | tuple[int, int], int]
-"""(name, how many-eth of that name in its mesh); a target without a name has its mesh and place instead."""
 
 TRIANGLES, STRIP, FAN = 4, 5, 6
 
@@ -112,8 +110,13 @@ def _add_mesh(gathered: Assembly, place: Placed) -> None:
     """Add the primitives of one mesh; those that share their vertices keep sharing them."""
     primitives = place.mesh.children("primitives")
     blocks: dict[tuple[int, ...], Block] = {}
-    names = _target_names(place.mesh)
-    keys = _shape_keys(gathered, place, names)
+    keys, problems = shape_keys(place)
+    weights, more_problems = rest_weights(place, len(keys))
+    gathered.warnings += problems + more_problems
+    gathered.grow(0, 0, len(keys))
+    for key, weight in zip(keys, weights, strict=True):
+        gathered.shapes.setdefault(key, [])
+        gathered.rest[key] = gathered.rest.get(key, 0.0) or weight
     for at, primitive in enumerate(primitives):
         mode = primitive.integer("mode", 4, high=6)
         if mode not in (TRIANGLES, STRIP, FAN):
@@ -123,6 +126,7 @@ def _add_mesh(gathered: Assembly, place: Placed) -> None:
         if "POSITION" not in attributes:
             raise FacepinError(f"{primitive.where}: no POSITION attribute")
         targets = [target.optional_integer("POSITION") for target in primitive.children("targets")]
+        gathered.grow(0, 0, 1 + len(targets))
         position = attributes.integer("POSITION")
         identity = (
             position,
@@ -148,7 +152,7 @@ def _add_vertices(gathered: Assembly, place: Placed, primitive: JsonObject, posi
         ):
             refuse_compression(extension, primitive.where)
     count = accessor_count(document, position)
-    gathered.grow(count, 0, len(primitive.children("targets")))
+    gathered.grow(count, 0, 0)
     linear = place.matrix[:3, :3]
     points = read_floats(document, position, ("VEC3",))
     if not np.array_equal(place.matrix, np.eye(4)):
@@ -205,57 +209,6 @@ def _triangles(
     return triangles + block.start
 
 
-def _target_names(mesh: JsonObject) -> list[str]:
-    """Return the names of a mesh's targets, maybe too few: `mesh.extras`, else the first primitive's."""
-    for holder in (mesh, *mesh.children("primitives")):
-        extras = holder.values.get("extras")
-        names = extras.get("targetNames") if isinstance(extras, dict) else None
-        if isinstance(names, list) and names:
-            return [name if isinstance(name, str) else "" for name in names]
-    return []
-
-
-def _shape_keys(gathered: Assembly, place: Placed, names: list[str]) -> list[ShapeKey]:
-    """Return the shapes that the targets of a mesh belong to, in order, with their rest weights noted.
-
-    Shapes of several meshes that bear the same name are one shape.  Targets without a name are independent.
-    """
-    primitives = place.mesh.children("primitives")
-    counts = {len(primitive.children("targets")) for primitive in primitives}
-    count = max(counts, default=0)
-    if len(counts) > 1:
-        gathered.warnings.append(
-            f"{place.mesh.where}: primitives have {sorted(counts)} targets; those missing are zero"
-        )
-    if names and len(names) != count:
-        gathered.warnings.append(f"{place.mesh.where}: {len(names)} target names for {count} targets")
-    keys: list[ShapeKey] = []
-    repeated = Counter[str]()
-    for j in range(count):
-        name = names[j] if j < len(names) else ""
-        key: ShapeKey = (name, repeated[name]) if name else ((place.mesh_index, j), 0)
-        repeated[name] += 1
-        gathered.shapes.setdefault(key, [])
-        gathered.rest.setdefault(key, 0.0)
-        keys.append(key)
-    for key, weight in zip(keys, _rest_weights(gathered, place, count), strict=True):
-        if weight and gathered.rest[key] not in (0.0, weight):
-            gathered.warnings.append(f"{place.node.where}: another rest weight of {_label(key)} is ignored")
-        gathered.rest[key] = gathered.rest[key] or weight
-    return keys
-
-
-def _rest_weights(gathered: Assembly, place: Placed, count: int) -> list[float]:
-    """Return the weights the file asks for: the node's, else the mesh's; mended to the number of targets."""
-    holder = place.node if "weights" in place.node else place.mesh
-    if "weights" not in holder:
-        return [0.0] * count
-    weights = holder.numbers("weights")
-    if len(weights) != count:
-        gathered.warnings.append(f"{holder.where}.weights has {len(weights)} entries for {count} targets")
-    return (weights + [0.0] * count)[:count]
-
-
 def _shapes(gathered: Assembly, options: ReadOptions) -> Iterator[tuple[str, Delta]]:
     """Make the deltas one at a time."""
     stored = 0
@@ -270,13 +223,9 @@ def _shapes(gathered: Assembly, options: ReadOptions) -> Iterator[tuple[str, Del
                 f"{gathered.document.root.where} its targets unfold to far more than the file holds"
             )
         yield (
-            _label(key),
+            key[0] if isinstance(key[0], str) else "",
             (vertices, np.concatenate([np.zeros((0, 3), np.float32), *(moves for _, moves in deltas)])),
         )
-
-
-def _label(key: ShapeKey) -> str:
-    return key[0] if isinstance(key[0], str) else ""
 
 
 def _piece(document: GltfDocument, block: Block, accessor: int) -> tuple[NDArray[np.int64], Points]:

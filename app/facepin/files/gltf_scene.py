@@ -12,6 +12,8 @@ from facepin.files.checked_json import JsonObject
 from facepin.files.gltf_accessors import read_floats
 from facepin.files.gltf_document import GltfDocument
 
+LARGEST = 1e30
+
 
 @dataclass(frozen=True, eq=False)
 class Placed:
@@ -74,9 +76,7 @@ def _world_matrices(root: JsonObject) -> Iterator[tuple[int, Floats]]:
                 f"{nodes.where}[{index}] is reached twice: a cycle or two parents, allowed is a tree"
             )
         seen.add(index)
-        matrix = parent @ _local_matrix(nodes[index])
-        if not np.abs(matrix).max() <= 1e30:
-            raise FacepinError(f"{nodes.where}[{index}]: its transform is too large to compute with")
+        matrix = _product(parent, _local_matrix(nodes[index]), f"{nodes.where}[{index}]")
         yield index, matrix
         waiting += [(child, matrix) for child in reversed(children[index])]
 
@@ -119,7 +119,14 @@ def _skin_matrix(document: GltfDocument, index: int, world: dict[int, Floats]) -
     matrix = world[joints[0]]
     binding = skin.optional_integer("inverseBindMatrices")
     if binding is not None:
-        matrix = matrix @ read_floats(document, binding, ("MAT4",))[0].reshape(4, 4).T.astype(np.float64)
-    if not np.abs(matrix).max() <= 1e30:
-        raise FacepinError(f"{skin.where}: its transform is too large to compute with")
+        inverse = read_floats(document, binding, ("MAT4",))[0].reshape(4, 4).T.astype(np.float64)
+        matrix = _product(matrix, inverse, skin.where)
     return matrix
+
+
+def _product(left: Floats, right: Floats, where: str) -> Floats:
+    with np.errstate(all="ignore"):
+        product: Floats = left @ right
+    if not np.abs(product).max() <= LARGEST:
+        raise FacepinError(f"{where}: its transform is too large to compute with")
+    return product

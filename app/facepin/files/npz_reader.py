@@ -1,42 +1,18 @@
 """Rigs from numpy archives.  Headers are checked before anything is inflated; nothing is ever unpickled."""
 
-import re
-import zipfile
-import zlib
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
-from math import prod
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
-from facepin.core.rig_builder import Delta, PartLook, build_rig
+from facepin.core.rig_builder import PartLook, build_rig
+from facepin.files.npz_archive import Archive, open_archive
 from facepin.files.options import ReadOptions
-
-HEADER = re.compile(
-    rb"\s*\{\s*'descr':\s*'(?P<dtype>[^']{1,20})',\s*'fortran_order':\s*(?P<fortran>True|False),"
-    rb"\s*'shape':\s*\((?P<shape>[\d,\s]{0,100})\),?\s*\}\s*"
-)
-LONGEST_HEADER = 4096
-LARGEST_RATIO = 200
-"""Inflated bytes for one stored byte that geometry may reach; shapes, read one by one, may be all zeros."""
-
-
-@dataclass(frozen=True)
-class Member:
-    """One array of the archive, by its header."""
-
-    name: str
-    dtype: np.dtype[Any]
-    shape: tuple[int, ...]
-    fortran: bool
-    header_size: int
-    info: zipfile.ZipInfo
 
 
 def read_npz(path: Path, options: ReadOptions) -> Rig:
@@ -52,106 +28,8 @@ def read_npz(path: Path, options: ReadOptions) -> Rig:
         For a broken archive, headers that lie or do not fit together, or numbers that are not finite.
     """
     options.progress(0.0, f"reading {path.name}")
-    with ExitStack() as stack:
-        with sound(path.name):
-            archive = stack.enter_context(zipfile.ZipFile(path))
-        return _read(Archive(archive, path.name), path, options)
-
-
-@contextmanager
-def sound(name: str) -> Iterator[None]:
-    """Turn everything that a broken zip archive makes `zipfile` raise into one line."""
-    try:
-        yield
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, ValueError) as error:
-        raise FacepinError(f"{name}: not a sound .npz archive: {error}") from error
-
-
-class Archive:
-    """The arrays of a .npz, read on request."""
-
-    def __init__(self, archive: zipfile.ZipFile, name: str) -> None:
-        self._zip = archive
-        self.name = name
-        self.infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
-
-    def __contains__(self, key: str) -> bool:
-        return key in self.infos
-
-    def member(self, key: str) -> Member:
-        """Read the header of array `key` and check it against the archive's directory."""
-        if key not in self.infos:
-            raise FacepinError(
-                f"{self.name}: no array {key!r}, there are: {', '.join(self.infos)[:200] or 'none'}"
-            )
-        info = self.infos[key]
-        where = f"{self.name}: {key}"
-        if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-            raise FacepinError(
-                f"{where}: packed with zip method {info.compress_type}, allowed are 0 and 8 (deflate)"
-            )
-        with sound(where), self._zip.open(info) as file:
-            dtype, shape, fortran, header_size = _header(file, where)
-        declared = prod(shape) * dtype.itemsize + header_size
-        if declared != info.file_size:
-            raise FacepinError(
-                f"{where}: its header declares {declared} bytes, the archive holds {info.file_size}"
-            )
-        return Member(key, dtype, shape, fortran, header_size, info)
-
-    def array(self, member: Member) -> NDArray[Any]:
-        """Inflate a whole array, unless it is out of proportion to its place in the file."""
-        if member.info.file_size > LARGEST_RATIO * member.info.compress_size + 2**20:
-            raise FacepinError(
-                f"{self.name}: {member.name} inflates from {member.info.compress_size} bytes to "
-                f"{member.info.file_size}, out of proportion"
-            )
-        with sound(f"{self.name}: {member.name}"), self._zip.open(member.info) as file:
-            content = file.read()
-        flat = np.frombuffer(content, member.dtype, offset=member.header_size)
-        return flat.reshape(member.shape, order="F" if member.fortran else "C")
-
-    def slices(self, member: Member) -> Iterator[NDArray[Any]]:
-        """Inflate an array one leading index at a time, so that memory does not grow with its first axis."""
-        if member.fortran:
-            yield from self.array(member)
-            return
-        size = prod(member.shape[1:]) * member.dtype.itemsize
-        where = f"{self.name}: {member.name}"
-        with ExitStack() as stack:
-            with sound(where):
-                file = stack.enter_context(self._zip.open(member.info))
-                file.read(member.header_size)
-            for _ in range(member.shape[0]):
-                with sound(where):  # the last read also checks the CRC
-                    content = file.read(size)
-                if len(content) < size:
-                    raise FacepinError(f"{where} ends early")
-                yield np.frombuffer(content, member.dtype).reshape(member.shape[1:])
-
-
-def _header(file: IO[bytes], where: str) -> tuple[np.dtype[Any], tuple[int, ...], bool, int]:
-    """Return dtype, shape, order and header size of a .npy stream; plain number and text types only."""
-    start = file.read(8)
-    if len(start) < 8 or start[:6] != b"\x93NUMPY" or start[6] not in (1, 2, 3):
-        raise FacepinError(f"{where}: not a .npy array of version 1 to 3")
-    width = 2 if start[6] == 1 else 4
-    length = int.from_bytes(file.read(width), "little")
-    if length > LONGEST_HEADER:
-        raise FacepinError(f"{where}: array header of {length} bytes, allowed are {LONGEST_HEADER}")
-    match = HEADER.fullmatch(file.read(length))
-    if match is None:
-        raise FacepinError(f"{where}: its array header is not one of plain numbers or texts")
-    try:
-        dtype = np.dtype(match["dtype"].decode("latin-1"))
-    except (TypeError, ValueError) as error:
-        raise FacepinError(f"{where}: unknown number type {match['dtype'].decode('latin-1')!a}") from error
-    if dtype.kind not in "fiubUS" or not dtype.itemsize:
-        raise FacepinError(
-            f"{where}: holds {dtype}, allowed are plain numbers and texts; nothing is unpickled"
-        )
-    shape = tuple(int(size) for size in match["shape"].decode("ascii").split(",") if size.strip())
-    return dtype, shape, match["fortran"] == b"True", 8 + width + length
+    with open_archive(path) as archive:
+        return _read(archive, path, options)
 
 
 def _read(archive: Archive, path: Path, options: ReadOptions) -> Rig:
@@ -178,12 +56,8 @@ def _read(archive: Archive, path: Path, options: ReadOptions) -> Rig:
     names = extras.names()
     looks, part_of_vertex = extras.parts()
     face_parts = None
-    if (
-        part_of_vertex is not None
-        and len(sizes)
-        and sizes.min()
-        and 0 <= corners.min() <= corners.max() < vertices
-    ):
+    in_range = sizes.min(initial=1) > 0 and ((corners >= 0) & (corners < vertices)).all()
+    if part_of_vertex is not None and in_range:  # build_rig says what is wrong with faces that are not
         face_parts = part_of_vertex[corners[np.cumsum(sizes) - sizes]]
 
     def shapes() -> Iterator[tuple[str, Delta]]:
@@ -257,7 +131,9 @@ class Extras:
             return None
         if found.dtype.kind == "S":
             return [bytes(text).decode("utf-8", "replace") for text in found]
-        return [str(text) for text in found]
+        # As bytes first: a code that is no character must not make numpy raise.
+        codec = "utf-32-le" if found.dtype.byteorder in "<=|" else "utf-32-be"
+        return [text.tobytes().decode(codec, "replace").rstrip("\0") for text in found[:, None]]
 
     def _fitting(self, key: str, kinds: str, shape: tuple[int, ...] | None) -> NDArray[Any] | None:
         """Return array `key` if it is there, of one of `kinds`, of `shape` and finite."""
@@ -270,7 +146,7 @@ class Extras:
             array = self._archive.array(member)
             if member.dtype.kind == "f" and not np.isfinite(array).all():
                 raise FacepinError("it has numbers that are not finite")
-        except (FacepinError, UnicodeDecodeError, ValueError) as error:
+        except FacepinError as error:
             self.warnings.append(f"array {key!r} is ignored: {error}")
             return None
         return array

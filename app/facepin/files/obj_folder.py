@@ -5,10 +5,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from facepin.core.arrays import Floats
+from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
 from facepin.core.names import listed
 from facepin.core.rig import Rig
-from facepin.core.rig_builder import Delta, PartLook, build_rig
+from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files.obj_text import cut_lines, read_faces, read_vertices
 from facepin.files.options import ReadOptions
 from facepin.files.rig_cache import recall, remember

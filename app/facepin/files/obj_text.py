@@ -156,16 +156,15 @@ def _parts(text: ObjText, faces: NDArray[np.int64]) -> tuple[list[str], NDArray[
 def _join_continuations(content: bytes) -> bytes:
     """Join lines that end in a backslash with the next; blank lines keep the numbers of the others."""
     joined: list[bytes] = []
-    pending, waiting = b"", 0
+    pending: list[bytes] = []
     for line in content.split(b"\n"):
         bare = line.rstrip(b"\r")
         if bare.endswith(b"\\"):
-            pending += bare[:-1] + b" "
-            waiting += 1
-            continue
-        joined += [pending + line, *[b""] * waiting]
-        pending, waiting = b"", 0
-    return b"\n".join([*joined, pending] if pending else joined)
+            pending.append(bare[:-1])
+        else:
+            joined += [b" ".join([*pending, line]), *[b""] * len(pending)]
+            pending = []
+    return b"\n".join([*joined, b" ".join(pending)])
 
 
 def _first_wrong_vertex(text: ObjText, lines: NDArray[np.int64]) -> FacepinError:

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from facepin.core.delta_columns import FARTHEST
 from facepin.core.errors import FacepinError
 from facepin.core.pose import FRONT_AXES, Pin, Vector
 from facepin.core.rig import Rig
-from facepin.core.rig_builder import FARTHEST
 from facepin.files.atomic import atomic_write
 from facepin.files.checked_json import JsonObject, parse_json
 from facepin.files.reading import read_bytes

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
-from facepin.core.rig_builder import Delta, PartLook, build_rig
+from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files.atomic import atomic_file
 from facepin.files.options import Progress
 

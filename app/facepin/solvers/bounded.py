@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
-from facepin.solvers.boxed import prepare_boxed
+import numpy as np
+
+from facepin.solvers.boxed import Price, prepare_boxed
 from facepin.solvers.interface import Floats, PinSystem, Solution, Solve, SolverKind, setting
 
 
@@ -24,10 +26,12 @@ def prepare(system: PinSystem, settings: BoundedSettings) -> Solve:
 
     Notes: `steps` of the active-set method, and `optimality` (see `facepin.solvers.boxed.Minimum`).
     """
-    minimise = prepare_boxed(system, settings.alpha * system.scale, 0.0)
+    minimise = prepare_boxed(system, settings.alpha * system.scale)
+    nothing = np.zeros(system.rows.shape[1])
+    free = Price(nothing, nothing, nothing)
 
     def solve(displacement: Floats, start: Floats) -> Solution:
-        found = minimise(displacement, start, start)
+        found = minimise(displacement, start, free)
         return Solution(found.weights, {"steps": float(found.steps), "optimality": found.optimality})
 
     return solve

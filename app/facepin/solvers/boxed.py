@@ -1,12 +1,14 @@
-"""Exact least squares within limits, with an optional price on weights that differ from a centre.
+"""Exact least squares within limits, with an optional price on raising and lowering weights.
 
-Minimises  ½‖J w - d‖² + ½ α ‖w - w0‖² + λ Σ |w - c|  over  l ≤ w ≤ u,  with α > 0.
+Minimises  ½‖J w - d‖² + ½ α ‖w - w0‖² + Σ λ⁺ max(w - c, 0) + Σ λ⁻ max(c - w, 0)
+over  l ≤ w ≤ u,  with α > 0.
 
 An active-set method.  Every weight either rests against a wall of its current linear piece (a limit, or the
 kink at its centre) or is free; the free ones are solved for together, and weights leave a wall when the
-objective falls that way.  It falls with every step and there are finitely many faces, so the search ends at the
-minimum up to rounding.  The problem being strictly convex, there is one minimum: where the search began does
-not show in it.  From the last frame's answer it takes a step or two, where projected gradients take hundreds.
+objective falls that way.  It falls with every step and there are finitely many faces, so the search ends at
+the minimum up to rounding.  The problem being strictly convex, there is one minimum: where the search began
+does not show in it.  From the last frame's answer it takes a step or two, where projected gradients take
+hundreds.
 """
 
 from collections.abc import Callable
@@ -38,15 +40,27 @@ class Minimum:
     search ran out of steps."""
 
 
-Minimise = Callable[[Floats, Floats, Floats], Minimum]
-"""(displacement d (r,), start w0 (k,), centre c (k,)) -> minimum."""
+@dataclass(frozen=True, eq=False)
+class Price:
+    """What it costs a weight to be away from a centre, in squared length units per unit of weight."""
+
+    centre: Floats
+    """(k,) c"""
+    raising: Floats
+    """(k,) λ⁺ ≥ 0"""
+    lowering: Floats
+    """(k,) λ⁻ ≥ 0"""
 
 
-def prepare_boxed(system: PinSystem, ridge: float, price: float) -> Minimise:
-    """Prepare the minimisation for α = `ridge` and λ = `price`, both ≥ 0 in squared length units.
+Minimise = Callable[[Floats, Floats, Price], Minimum]
+"""(displacement d (r,), start w0 (k,), price) -> minimum."""
 
-    Shapes that move no pin are not part of it: they keep their start, whatever they cost.  A weight that starts
-    outside its limits may stay there: nothing is clipped behind the user's back.
+
+def prepare_boxed(system: PinSystem, ridge: float) -> Minimise:
+    """Prepare the minimisation for α = `ridge` ≥ 0, in squared length units.
+
+    Shapes that move no pin are not part of it: they keep their start, whatever they cost.  A weight that
+    starts outside its limits may stay there: nothing is clipped behind the user's back.
     """
     seen = np.flatnonzero(system.rows.any(axis=0))
     rows = np.ascontiguousarray(system.rows[:, seen])
@@ -57,17 +71,18 @@ def prepare_boxed(system: PinSystem, ridge: float, price: float) -> Minimise:
     own = squares + ridge
     last: Floats | None = None
 
-    def minimise(displacement: Floats, start: Floats, centre: Floats) -> Minimum:
+    def minimise(displacement: Floats, start: Floats, price: Price) -> Minimum:
         nonlocal last
         weights, origin = start.copy(), start[seen]
         low, high = np.minimum(lowest, origin), np.maximum(highest, origin)
         begin = origin if last is None else np.minimum(np.maximum(last, low), high)
-        kink = np.clip(centre[seen], low, high) if price > 0 else low
+        raising, lowering = price.raising[seen], price.lowering[seen]
+        kink = np.where(raising + lowering > 0, np.clip(price.centre[seen], low, high), low)
         steps = 0
         while True:
             missing = rows @ begin - displacement
             gradient = missing @ rows + ridge * (begin - origin)
-            piece = _choose_piece(begin, gradient, price, kink, low, high, TOLERANCE * own)
+            piece = _choose_piece(begin, gradient, raising, lowering, kink, low, high, TOLERANCE * own)
             if piece.settled or steps == MOST_STEPS:
                 break
             begin = face.step(begin, piece, bold=steps < BOLD_STEPS)
@@ -96,17 +111,18 @@ class _Piece:
 def _choose_piece(
     weights: Floats,
     gradient: Floats,
-    price: float,
+    raising: Floats,
+    lowering: Floats,
     kink: Floats,
     low: Floats,
     high: Floats,
     tolerance: Floats,
 ) -> _Piece:
-    """Decide which weights move next: those inside their piece; once those are settled, those on walls too."""
+    """Decide which weights move next: those inside their piece, and once these are settled those on walls."""
     above, below = weights > kink, weights < kink
     # Slope of the objective when a weight goes up, and when it goes down: it should go where it is negative.
-    up = np.where(weights < high, gradient + np.where(below, -price, price), np.inf)
-    down = np.where(weights > low, np.where(above, -price, price) - gradient, np.inf)
+    up = np.where(weights < high, gradient + np.where(below, -lowering, raising), np.inf)
+    down = np.where(weights > low, np.where(above, -raising, lowering) - gradient, np.inf)
     urge = np.maximum(-np.minimum(up, down), 0.0)
     wants = urge > tolerance
     upper = above | ((up < down) & ~below)
@@ -114,7 +130,7 @@ def _choose_piece(
     inside = (weights > piece_low) & (weights < piece_high)
     # Weights on walls wait until the inner ones are settled: before that, most would be called for nothing.
     free = inside if np.any(inside & wants) else inside | wants
-    slope = gradient + np.where(upper, price, -price)
+    slope = gradient + np.where(upper, raising, -lowering)
     return _Piece(piece_low, piece_high, slope, free, urge, settled=not wants.any())
 
 
@@ -152,13 +168,17 @@ class _Face:
         """Solve (PᵀP + αI) x = right for the columns P (r, f), in whichever of f and r is smaller."""
         r, f = part.shape
         if f <= r:
-            direct: Floats = np.linalg.solve(part.T @ part + self.ridge * np.eye(f), right)
-            return direct
-        inner: Floats = np.linalg.solve(part @ part.T + self.ridge * np.eye(r), part @ right)
-        outer: Floats = (right - inner @ part) / self.ridge
-        return outer
+            return _solve_shifted(part.T @ part, self.ridge, right)
+        inner = _solve_shifted(part @ part.T, self.ridge, part @ right)
+        return (right - inner @ part) / self.ridge
 
     def falls(self, part: Floats, slope: Floats, change: Floats) -> bool:
         """Return whether the objective is lower after `change`, which stays on the piece."""
         moved = part @ change
         return float(change @ slope + 0.5 * (moved @ moved + self.ridge * (change @ change))) < 0.0
+
+
+def _solve_shifted(square: Floats, shift: float, right: Floats) -> Floats:
+    """Solve (square + shift I) x = right; `square` is overwritten."""
+    square.flat[:: len(square) + 1] += shift
+    return np.asarray(np.linalg.solve(square, right), np.float64)

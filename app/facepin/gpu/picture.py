@@ -85,6 +85,8 @@ def render_picture(
     mesh = PaneMesh(scene)
     try:
         mesh.upload(positions, normals)
+        while not scene.refined:
+            scene.refine()
         return draw_picture(
             mesh, camera, size, transparent=transparent, samples=samples, supersampling=supersampling
         )

@@ -1,38 +1,20 @@
 """A rig on the graphics card, and the panes that show it in different poses."""
 
-from dataclasses import dataclass, replace
-from typing import Literal
-
 import moderngl
 import numpy as np
 
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.rig import Rig
-from facepin.core.topology import DrawRun, draw_order
+from facepin.core.topology import draw_order
 from facepin.gpu.background import Background
 from facepin.gpu.framing import Framing, column_major, frame
+from facepin.gpu.materials import material_runs, vertex_albedo
+from facepin.gpu.openness import Openness
 from facepin.gpu.programs import load_program
-
-CLAY = (0.70, 0.66, 0.63)
-"""Base colour, sRGB, of what has no colour of its own."""
 
 GLOSSY = 0.3
 """Roughness below which a highlight is too small to be computed at vertices."""
-
-
-@dataclass(frozen=True)
-class Run:
-    """Neighbouring triangles that look the same and are drawn in one call."""
-
-    first: int
-    """Index of the first corner in the index buffer."""
-    count: int
-    tint: tuple[float, float, float]
-    """Linear colour that multiplies the vertex colours."""
-    roughness: float
-    hidden: Literal["back", "front"] | None
-    """The side that is never seen, so that triangles showing it are left out."""
 
 
 class Scene:
@@ -44,10 +26,35 @@ class Scene:
         order = draw_order(rig)
         self.runs = material_runs(rig, order.runs)
         self.indices = ctx.buffer(order.triangles)
-        self.albedo = ctx.buffer(vertex_albedo(rig))
+        self._albedo_values = vertex_albedo(rig)
+        self.albedo = ctx.buffer(self._albedo_values)
         self.fine_program = load_program(ctx, "mesh")
         self.fast_program = load_program(ctx, "mesh_fast")
         self.background = Background(ctx)
+        self._openness: Openness | None = Openness(ctx, rig, order, self.runs, self.indices)
+
+    @property
+    def refined(self) -> bool:
+        """Whether `refine` has nothing left to do."""
+        return self._openness is None
+
+    def refine(self, steps: int = 4) -> bool:
+        """Do some of the work that the first picture does not wait for: shade what light hardly reaches.
+
+        To be called when nothing else is to be done, until `refined`.  A step takes a few milliseconds
+        without a graphics card.
+
+        Returns
+        -------
+        bool
+            Whether pictures look different now.
+        """
+        if self._openness is None or self._openness.step(steps):
+            return False
+        self._albedo_values[:, 3] = self._openness.values
+        self.albedo.write(self._albedo_values)
+        self._openness = None
+        return True
 
     def release(self) -> None:
         """Give the graphics memory back."""
@@ -155,36 +162,3 @@ class PaneMesh:
         """Give the graphics memory back."""
         for item in (self._fine, self._fast, self._positions, self._normals):
             item.release()
-
-
-def linear(srgb: Points) -> Points:
-    """Return linear light (..., 3) float32 of sRGB colours 0..1 (IEC 61966-2-1)."""
-    srgb = np.clip(np.asarray(srgb, np.float32), 0, 1)
-    light: Points = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(
-        np.float32
-    )
-    return light
-
-
-def vertex_albedo(rig: Rig) -> "np.ndarray[tuple[int, int], np.dtype[np.float16]]":
-    """Linear vertex colours, white where the rig has none, and openness 1: (n, 4) float16."""
-    albedo = np.ones((rig.vertex_count, 4), np.float16)
-    if rig.colours is not None:
-        albedo[:, :3] = linear(rig.colours)
-    return albedo
-
-
-def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
-    """Join the runs of a draw order that look the same, so that a face of many parts needs few calls."""
-    runs: list[Run] = []
-    for piece in order:
-        part = rig.parts[piece.part]
-        colour = (1.0, 1.0, 1.0) if rig.colours is not None else part.colour or CLAY
-        r, g, b = (float(c) for c in linear(np.array(colour, np.float32)))
-        first, count = 3 * piece.triangles.start, 3 * len(piece.triangles)
-        run = Run(first, count, (r, g, b), part.roughness, piece.hidden)
-        if runs and replace(runs[-1], first=first, count=count) == run:
-            before = runs.pop()
-            run = replace(run, first=before.first, count=before.count + count)
-        runs.append(run)
-    return tuple(runs)

@@ -1,0 +1,111 @@
+"""What the parts of a face look like: as the file says, otherwise by their names, otherwise clay."""
+
+import re
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from facepin.core.arrays import Points
+from facepin.core.rig import Part, Rig
+from facepin.core.topology import DrawRun
+
+Colour = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Material:
+    """Base colour (sRGB 0..1) and roughness (0 mirror .. 1 chalk)."""
+
+    colour: Colour
+    roughness: float
+
+
+CLAY = Material((0.58, 0.55, 0.53), Part.roughness)
+"""What says nothing about itself."""
+
+BY_NAME: tuple[tuple[str, Material | None], ...] = (
+    ("occlusion|lacrimal|tear|eyeblend|eyewet|lash", None),
+    ("brow", Material((0.25, 0.20, 0.17), 0.6)),
+    ("iris", Material((0.24, 0.36, 0.42), 0.08)),
+    ("pupil", Material((0.02, 0.02, 0.02), 0.08)),
+    ("sclera|eyeball|eyewhite", Material((0.72, 0.70, 0.68), 0.08)),
+    ("teeth|tooth", Material((0.74, 0.71, 0.66), 0.22)),
+    ("gum|tongue|mouthsocket", Material((0.55, 0.34, 0.32), 0.35)),
+    ("hair|beard|moustache", Material((0.26, 0.20, 0.17), 0.45)),
+    ("^(left|right)?eyes?(l|r|left|right)?$", Material((0.72, 0.70, 0.68), 0.08)),
+)
+"""Pattern in a part's name (small letters only) and its material; the first that fits counts.  None: clear
+shells in front of the eye and cards that only a texture turns into lashes; they are left out."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """Neighbouring triangles that look the same and are drawn in one call."""
+
+    first: int
+    """Index of the first corner in the index buffer."""
+    count: int
+    tint: Colour
+    """Linear colour that multiplies the vertex colours."""
+    roughness: float
+    hidden: Literal["back", "front"] | None
+    """The side that is never seen, so that triangles showing it are left out."""
+
+
+def material(part: Part, coloured: bool) -> Material | None:
+    """Return what a part looks like, or None if it is better not seen.
+
+    Parameters
+    ----------
+    part : Part
+        What the file says about it counts first.
+    coloured : bool
+        The rig has vertex colours: the part's own colour is then not used.
+    """
+    name = re.sub("[^a-z]", "", part.name.lower())
+    named = next((look for pattern, look in BY_NAME if re.search(pattern, name)), CLAY)
+    if named is None:
+        if part.colour is None and not coloured:
+            return None
+        named = CLAY
+    colour = (1.0, 1.0, 1.0) if coloured else part.colour or named.colour
+    return Material(colour, named.roughness if part.roughness == Part.roughness else part.roughness)
+
+
+def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
+    """Join the runs of a draw order that look the same, so that a face of many parts needs few calls."""
+    runs: list[Run] = []
+    for piece in order:
+        look = material(rig.parts[piece.part], rig.colours is not None)
+        if look is None:
+            continue
+        r, g, b = linear(np.array(look.colour)).tolist()
+        first, count = 3 * piece.triangles.start, 3 * len(piece.triangles)
+        run = Run(first, count, (r, g, b), look.roughness, piece.hidden)
+        before = runs[-1] if runs else None
+        if before is not None and before.first + before.count == first:
+            joined = replace(before, count=before.count + count)
+            if joined == replace(run, first=before.first, count=joined.count):
+                runs[-1] = joined
+                continue
+        runs.append(run)
+    return tuple(runs)
+
+
+def vertex_albedo(rig: Rig) -> NDArray[np.float16]:
+    """Linear vertex colours, white where the rig has none, and openness 1: (n, 4) float16."""
+    albedo = np.ones((rig.vertex_count, 4), np.float16)
+    if rig.colours is not None:
+        albedo[:, :3] = linear(rig.colours)
+    return albedo
+
+
+def linear(srgb: Points) -> Points:
+    """Return linear light (..., 3) float32 of sRGB colours 0..1 (IEC 61966-2-1)."""
+    srgb = np.clip(np.asarray(srgb, np.float32), 0, 1)
+    light: Points = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(
+        np.float32
+    )
+    return light

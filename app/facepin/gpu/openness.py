@@ -1,0 +1,166 @@
+"""How open to the light every vertex is: what gives lids, nostrils, lips and the throat their depth.
+
+Ambient occlusion, baked once per rig from depth maps seen from all around.  It is computed a little at a
+time, so that the first picture does not wait for it.
+"""
+
+from collections.abc import Iterator
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from facepin.core.arrays import Floats, Indices, Points
+from facepin.core.rig import Rig
+from facepin.core.topology import DrawOrder
+from facepin.gpu.framing import column_major
+from facepin.gpu.materials import Run
+from facepin.gpu.programs import load_program
+
+DIRECTIONS = 48
+"""Views per pose."""
+RESOLUTION = 256
+"""Width and height of a depth map."""
+LIFT = 0.006
+"""Height above the skin where light is measured, in radii of the face: more than a step of the depth map."""
+OPENED_SHARE = 0.6
+"""How much of the light in an open mouth counts: teeth are seen, and closed lips keep their line."""
+
+
+class Openness:
+    """The baking of one rig."""
+
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        rig: Rig,
+        order: DrawOrder,
+        runs: tuple[Run, ...],
+        indices: moderngl.Buffer,
+    ) -> None:
+        """Prepare for what is drawn: `runs` of the triangles of `order`, which are in `indices`."""
+        self.values: Points = np.ones(rig.vertex_count, np.float32)
+        """(n,) share of the light that arrives; 1 until all is done."""
+        self._steps = self._bake(ctx, rig, runs, indices, outer_sides(rig, order, runs))
+
+    def step(self, count: int) -> bool:
+        """Look from `count` more directions; return True as long as there are more."""
+        return all(next(self._steps, None) is not None for _ in range(count))
+
+    def _bake(
+        self,
+        ctx: moderngl.Context,
+        rig: Rig,
+        runs: tuple[Run, ...],
+        indices: moderngl.Buffer,
+        sides: NDArray[np.int8],
+    ) -> Iterator[int]:
+        program = load_program(ctx, "depth")
+        depth = ctx.depth_texture((RESOLUTION, RESOLUTION))
+        framebuffer = ctx.framebuffer(depth_attachment=depth)
+        buffer = ctx.buffer(reserve=12 * rig.vertex_count)
+        mesh = ctx.vertex_array(program, [(buffer, "3f", "position")], indices)
+        arrived = []
+        for positions in (rig.neutral, opened(rig)):
+            buffer.write(np.ascontiguousarray(positions, np.float32))
+            middle = (positions.min(axis=0) + positions.max(axis=0)) / 2
+            radius = 1.01 * max(float(np.linalg.norm(positions - middle, axis=1).max()), 1e-30)
+            points = (positions - middle) / np.float32(radius)
+            normals = (
+                vertex_normals(positions, rig.triangles)
+                * np.where(sides < 0, -1, 1).astype(np.float32)[:, None]
+            )
+            # In front of the surface and behind it.
+            light = np.zeros((2, rig.vertex_count), np.float32)
+            total = np.full((2, rig.vertex_count), 1e-6, np.float32)
+            for step, direction in enumerate(directions(DIRECTIONS)):
+                axes = _axes(direction)
+                matrix = np.eye(4)
+                matrix[:3, :3] = axes / radius
+                matrix[:3, 3] = -matrix[:3, :3] @ middle
+                program["to_clip"] = column_major(matrix)
+                framebuffer.use()
+                framebuffer.clear(depth=1.0)
+                ctx.enable_only(moderngl.DEPTH_TEST)
+                ctx.depth_func = "<"
+                for run in runs:
+                    mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
+                nearest = np.frombuffer(depth.read(alignment=4), np.float32).reshape(RESOLUTION, RESOLUTION)
+                facing = normals @ direction.astype(np.float32)
+                lift = np.where(facing < 0, -LIFT, LIFT).astype(np.float32)
+                x, y, z = axes.astype(np.float32) @ (points + lift[:, None] * normals).T
+                column, row = (
+                    np.clip(((c + 1) * (RESOLUTION / 2)).astype(np.intp), 0, RESOLUTION - 1) for c in (x, y)
+                )
+                seen = nearest[row, column] * 2 - 1 > z - LIFT / 2
+                weight = np.maximum([facing, -facing], 0)
+                light += weight * seen
+                total += weight
+                yield step
+            front, back = light / total
+            arrived.append(np.where(sides == 0, np.maximum(front, back), front))
+        for item in (mesh, buffer, framebuffer, depth, program):
+            item.release()
+        self.values = smoothed(np.maximum(arrived[0], OPENED_SHARE * np.sqrt(arrived[1])), rig)
+
+
+def outer_sides(rig: Rig, order: DrawOrder, runs: tuple[Run, ...]) -> NDArray[np.int8]:
+    """Which side of the surface at each vertex is lit, (n,) int8: 1 the front, -1 the back, 0 both."""
+    sides = np.zeros(rig.vertex_count, np.int8)
+    corners = order.triangles.ravel()
+    for run in sorted(runs, key=lambda run: run.hidden is None):  # both wins where runs meet
+        sides[corners[run.first : run.first + run.count]] = {"back": 1, "front": -1, None: 0}[run.hidden]
+    return sides
+
+
+def opened(rig: Rig) -> Points:
+    """Return positions with the mouth open: the jaw's shape by name, else the shape that moves most."""
+    if not rig.shape_count:
+        return rig.neutral
+    weights = np.zeros(rig.shape_count)
+    named = [j for j, name in enumerate(rig.shape_names) if "jawopen" in name.lower().replace("_", "")]
+    weights[named[0] if named else int(np.argmax(rig.largest_moves))] = 1.0
+    positions: Points = rig.evaluate(weights)
+    return positions
+
+
+def directions(count: int) -> Floats:
+    """Directions spread evenly over the sphere, (count, 3) float64 unit vectors: Fibonacci's spiral."""
+    at = np.arange(count) + 0.5
+    height, turn = 1 - 2 * at / count, np.pi * (3 - 5**0.5) * at
+    across = np.sqrt(1 - height**2)
+    return np.stack([across * np.cos(turn), height, across * np.sin(turn)], axis=1)
+
+
+def vertex_normals(positions: Points, triangles: Indices) -> Points:
+    """Area-weighted unit normals (n, 3) float32; zero where a vertex has no area round it."""
+    a, b, c = (positions[corner] for corner in triangles.T)
+    areas = np.cross(b - a, c - a)
+    sums = [np.bincount(triangles.ravel(), np.repeat(area, 3), len(positions)) for area in areas.T]
+    normals = np.stack(sums, axis=1)
+    lengths = np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(np.float32).tiny)
+    units: Points = (normals / lengths).astype(np.float32)
+    return units
+
+
+def smoothed(values: Points, rig: Rig) -> Points:
+    """Mix values (n,) with the mean of their neighbours, twice: hides the steps of few directions."""
+    corners = rig.triangles
+    rows = np.concatenate([corners[:, [0, 1, 2]].ravel(), corners[:, [1, 2, 0]].ravel()])
+    columns = np.concatenate([corners[:, [1, 2, 0]].ravel(), corners[:, [0, 1, 2]].ravel()])
+    count = rig.vertex_count
+    around = csr_array((np.ones(len(rows), np.float32), (rows, columns)), shape=(count, count))
+    degree: Points = around.sum(axis=1)
+    for _ in range(2):
+        mean = np.where(degree > 0, (around @ values) / np.maximum(degree, 1), values)
+        values = (0.5 * values + 0.5 * mean).astype(np.float32)
+    return values
+
+
+def _axes(direction: Floats) -> Floats:
+    """Right, up and away (3, 3) of a view against `direction`; depth grows away from it."""
+    up = np.array([0.0, 1.0, 0.0]) if abs(direction[1]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    right = np.cross(up, direction)
+    right /= np.linalg.norm(right)
+    return np.stack([right, np.cross(direction, right), -direction])

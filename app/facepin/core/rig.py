@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Indices, Points
+from facepin.core.columns import Columns
 
 
 @dataclass(frozen=True)
@@ -74,39 +75,26 @@ class Rig:
         return float(extent[1] if extent[1] > 0 else max(extent.max(), 1.0))
 
     @cached_property
+    def columns(self) -> Columns:
+        """The deltas once more, stored for fast products; made when first needed."""
+        return Columns(self.deltas)
+
+    @cached_property
     def largest_moves(self) -> Floats:
         """(k,) length of the largest vertex move of each shape at weight 1."""
-        columns = self.deltas
-        squared = np.zeros(self.shape_count)
-        for j in range(self.shape_count):
-            run = slice(columns.indptr[j], columns.indptr[j + 1])
-            moves = np.bincount(columns.indices[run] // 3, columns.data[run].astype(np.float64) ** 2)
-            squared[j] = moves.max(initial=0.0)
-        return np.sqrt(squared)
+        return self.columns.largest_moves()
 
     @cached_property
     def scale(self) -> float:
-        """Mean over shapes of the squared largest vertex move: the unit of the relative strengths of solvers."""
+        """Mean over shapes of the squared largest vertex move: the unit of relative solver settings."""
         return float(np.mean(self.largest_moves**2)) if self.shape_count else 0.0
 
     def evaluate(self, weights: Floats) -> Points:
-        """Posed positions f0 + B w, (n, 3) float32, computed from scratch (see `deform` for the drag path)."""
-        active = np.flatnonzero(weights)
-        moved = self.deltas[:, active] @ np.asarray(weights, np.float32)[active]
+        """Posed positions f0 + B w, (n, 3) float32, computed from scratch; drags use `deform.Deformer`."""
+        moved = self.columns.product(np.asarray(weights, np.float64))
         positions: Points = self.neutral + moved.reshape(-1, 3)
         return positions
 
     def rows_at(self, vertices: Sequence[int]) -> Floats:
         """Rows of B at `vertices`, (3p, k) float64: x, y, z of the first vertex, then of the next (Eq. 7)."""
-        deltas = self.deltas
-        rows = np.zeros((3 * len(vertices), self.shape_count))
-        wanted = 3 * np.asarray(vertices, np.int64)[:, None] + np.arange(3)
-        wanted = wanted.ravel()
-        for j in range(self.shape_count):
-            start, stop = deltas.indptr[j], deltas.indptr[j + 1]
-            if start == stop:
-                continue
-            at = start + np.searchsorted(deltas.indices[start:stop], wanted)
-            at = np.minimum(at, stop - 1)
-            rows[:, j] = np.where(deltas.indices[at] == wanted, deltas.data[at], 0.0)
-        return rows
+        return self.columns.rows((3 * np.asarray(vertices, np.intp)[:, None] + np.arange(3)).ravel())

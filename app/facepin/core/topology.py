@@ -82,20 +82,24 @@ def weld_map(rig: Rig) -> Indices:
     Files split vertices at texture seams and between materials.  Two are one if they are at the same place in
     the neutral and every shape moves them alike.
     """
+    result = np.arange(rig.vertex_count, dtype=np.int32)
+    _, place, uses = np.unique(_mixed(rig.neutral), return_inverse=True, return_counts=True)
+    shared = np.flatnonzero(uses[place] > 1)
+    if not len(shared):
+        return result
     # One random pose stands for all shapes: equal rows of B give equal sums, bit for bit.
-    random = np.random.default_rng(1)
-    moved = rig.deltas @ random.uniform(1, 2, rig.shape_count)
-    places = np.vstack([rig.neutral.T.astype(np.float64), moved.reshape(-1, 3).T])
-    mixed = sum(factor * place for factor, place in zip(random.uniform(1, 2, 6), places, strict=True))
-    order = np.argsort(mixed, kind="stable")
-    places = places[:, order]
-    same = np.zeros(len(order), bool)
-    same[1:] = (places[:, 1:] == places[:, :-1]).all(axis=0)
-    # The sort is stable, so the first of every run of equals is the lowest vertex.
-    first = order[np.maximum.accumulate(np.where(same, 0, np.arange(len(order))))]
-    result = np.zeros(len(order), np.int32)
-    result[order] = first
+    weights = np.random.default_rng(1).uniform(1, 2, rig.shape_count).astype(np.float32)
+    moved = (rig.deltas @ weights).reshape(-1, 3)[shared]
+    keys = np.stack([_mixed(rig.neutral[shared]), _mixed(moved)], axis=1)
+    _, first, group = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    result[shared] = shared[first[group.ravel()]]
     return result
+
+
+def _mixed(points: Points) -> Floats:
+    """One number (m,) float64 for each point (m, 3): the same for equal points, and hardly ever for others."""
+    x, y, z = points.astype(np.float64).T
+    return x + np.pi * y + np.e * z
 
 
 def hidden_sides(rig: Rig) -> NDArray[np.int8]:

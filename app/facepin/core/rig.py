@@ -36,8 +36,8 @@ class Rig:
     neutral: Points
     """(n, 3) float32, rest positions f0."""
     deltas: csc_array
-    """(3n, k) float32, the paper's B: column j is shape j minus neutral, row 3 v + c is coordinate c of vertex v.
-    Indices sorted, exact zeros dropped."""
+    """(3n, k) float32, the paper's B: column j is shape j minus neutral, row 3 v + c its coordinate c at
+    vertex v.  Indices sorted, exact zeros dropped."""
     shape_names: tuple[str, ...]
     """k names, unique and printable."""
     corners: Indices

@@ -97,9 +97,10 @@ def weld_map(rig: Rig) -> Indices:
 
 
 def _mixed(points: Points) -> Floats:
-    """One number (m,) float64 for each point (m, 3): the same for equal points, and hardly ever for others."""
+    """One number (m,) float64 for each point (m, 3): equal for equal points, and hardly ever for others."""
     x, y, z = points.astype(np.float64).T
-    return x + np.pi * y + np.e * z
+    mixed: Floats = x + np.pi * y + np.e * z
+    return mixed
 
 
 def hidden_sides(rig: Rig) -> NDArray[np.int8]:

@@ -37,9 +37,10 @@ class Stage:
         """Time of the last deformation with normals and upload, all panes."""
         self._scene = Scene(ctx, session.rig)
         self._markers = MarkerLayer(ctx)
+        normals = NormalField(session.rig)
         self._shown = [
-            _Shown(Deformer(session.rig), NormalField(session.rig), PaneMesh(self._scene))
-            for _ in session.poses
+            _Shown(Deformer(session.rig), normals if pane == 0 else normals.twin(), PaneMesh(self._scene))
+            for pane in range(len(session.poses))
         ]
         self.update()
 
@@ -74,10 +75,12 @@ class Stage:
         camera: Camera,
         tool: DragTool,
         scale: float,
+        *,
+        fine: bool,
     ) -> None:
-        """Draw every pane with its pins into its viewport."""
+        """Draw every pane with its pins into its viewport; `fine` is slower where a processor does the drawing."""
         for pane, (viewport, pose) in enumerate(zip(viewports, self.session.poses, strict=True)):
-            self._shown[pane].mesh.draw(framebuffer, viewport, camera)
+            self._shown[pane].mesh.draw(framebuffer, viewport, camera, fine=fine)
             markers = _markers(pose, self.positions(pane), tool)
             self._markers.draw(framebuffer, viewport, camera, markers, scale=scale)
 

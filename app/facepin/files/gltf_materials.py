@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from facepin.core.arrays import Points
+from facepin.core.arrays import Points, frozen
 from facepin.core.rig_builder import PartLook
 from facepin.files.checked_json import JsonObject
 from facepin.files.gltf_document import GltfDocument
@@ -26,8 +26,8 @@ def material_factor(document: GltfDocument, primitive: JsonObject) -> Points:
     shine = _shine(document, primitive)
     if shine is None or "baseColorFactor" not in shine:
         return np.ones(3, np.float32)
-    factor: Points = np.array(shine.numbers("baseColorFactor", 4)[:3], np.float32)
-    return np.clip(factor, 0.0, 1.0)
+    factor = np.clip(shine.numbers("baseColorFactor", 4)[:3], 0.0, 1.0)
+    return frozen(factor, np.float32)
 
 
 def part_look(document: GltfDocument, primitive: JsonObject, mesh: str, at: int, count: int) -> PartLook:

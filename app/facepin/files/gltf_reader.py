@@ -235,9 +235,10 @@ def _piece(document: GltfDocument, block: Block, accessor: int) -> tuple[NDArray
         vertices, moves = np.asarray(delta[0], np.int64), np.asarray(delta[1], np.float32)
     else:
         moves = np.asarray(delta, np.float32)
-        vertices = np.flatnonzero(moves.any(axis=1))
+        with np.errstate(invalid="ignore"):  # build_rig names what is not finite
+            vertices = np.flatnonzero((moves != 0.0).any(axis=1))
         moves = moves[vertices]
     if block.linear is not None:
-        with np.errstate(all="ignore"):  # build_rig names what is not finite
+        with np.errstate(all="ignore"):
             moves = (moves.astype(np.float64) @ block.linear.T).astype(np.float32)
     return vertices + block.start, moves

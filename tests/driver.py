@@ -61,7 +61,12 @@ class App:
         self.step(PointerReleased(x, y, button), frames=2)
 
     def drag(
-        self, start: tuple[float, float], end: tuple[float, float], button: str = "left", moves: int = 30, **held: bool
+        self,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        button: str = "left",
+        moves: int = 30,
+        **held: bool,
     ) -> None:
         """Press, move in equal steps, release."""
         self.press(*start, button, **held)

@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import NoReturn
 
 from facepin import __version__
-from facepin.commands import COMMANDS, first_pose, solver_choices
+from facepin.commands import COMMANDS
 from facepin.core.errors import FacepinError
+from facepin.options import first_pose, solver_choices
 
 
 class _Parser(ArgumentParser):
@@ -65,7 +66,9 @@ def _window_parser() -> ArgumentParser:
 def _window(options: Namespace) -> None:
     """Open the window; without a display, run the demonstration instead."""
     if options.rig is not None and not options.rig.exists():
-        raise FacepinError(f"'{options.rig}' is neither a rig nor a command (commands: {', '.join(COMMANDS)})")
+        raise FacepinError(
+            f"'{options.rig}' is neither a rig nor a command (commands: {', '.join(COMMANDS)})"
+        )
     from platformdirs import user_config_path, user_pictures_path
 
     from facepin.files.preferences import read_preferences

@@ -1,7 +1,6 @@
 """The commands without a window: info, solve, render, export."""
 
 import json
-import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,15 +10,10 @@ from typing import Any
 import numpy as np
 
 from facepin.core.errors import FacepinError
-from facepin.core.pose import Pose, rest_pose
-from facepin.core.rig import Rig
-from facepin.resources import resource
-from facepin.session.solving import PinSolver, SolverChoice, choose
-from facepin.solvers import SOLVERS
-from facepin.solvers.settings import parse_settings, plain_settings
-
-BUILTIN = "faces/ada.npz"
-
+from facepin.core.pose import Pose
+from facepin.options import add_rig, add_solver, first_pose, open_with_bar, solver_choices
+from facepin.session.solving import PinSolver
+from facepin.solvers.settings import plain_settings
 
 @dataclass(frozen=True)
 class Command:
@@ -28,77 +22,6 @@ class Command:
     help: str
     add_options: Callable[[ArgumentParser], None]
     run: Callable[[Namespace], None]
-
-
-def open_with_bar(path: Path | None, neutral: str | None = None) -> Rig:
-    """Open a rig (the built-in face for None), with a progress bar where a person is watching."""
-    from facepin.files import open_rig
-
-    path = path or resource("assets", BUILTIN)
-    if not sys.stderr.isatty():
-        return open_rig(path, neutral=neutral)
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(f"Opening {path.name}", total=1.0)
-        return open_rig(
-            path, neutral=neutral, progress=lambda done, line: bar.update(task, completed=done, description=line)
-        )
-
-
-def solver_choices(keys: str, settings: list[str], keep_limits: bool) -> list[SolverChoice]:
-    """Return the solvers of a comma-separated list (or "all") with `name=value` settings.
-
-    Raises
-    ------
-    FacepinError
-        Naming the solvers or settings that exist.
-    """
-    names = list(SOLVERS) if keys == "all" else [key.strip() for key in keys.split(",") if key.strip()]
-    if not names:
-        raise FacepinError(f"no solver was named (there are: {', '.join(SOLVERS)})")
-    kinds = {name: choose(name).kind for name in names}
-    try:
-        parsed = parse_settings(kinds.values(), settings)
-    except ValueError as error:
-        raise FacepinError(str(error)) from error
-    return [choose(name, parsed[name], keep_limits) for name in names]
-
-
-def first_pose(rig: Rig, pose: Path | None, pins: Path | None) -> Pose:
-    """Return the pose that files ask for: weights from a pose file, pins from a pins file."""
-    from facepin.files.pose_file import read_pins, read_pose
-
-    start = rest_pose(rig)
-    if pose is not None:
-        start, report = read_pose(pose, rig)
-        if report:
-            print(f"facepin: {pose.name}: {report}", file=sys.stderr)
-    return start if pins is None else start.with_pins(read_pins(pins, rig))
-
-
-def add_rig(parser: ArgumentParser) -> None:
-    """Add RIG and --neutral."""
-    parser.add_argument("rig", type=Path, metavar="RIG", help="a .glb, .gltf, .vrm, .npz or folder of .obj files")
-    parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
-
-
-def add_solver(parser: ArgumentParser, default: str) -> None:
-    """Add --solver, --set and --limits."""
-    keys = ", ".join(SOLVERS)
-    parser.add_argument(
-        "--solver", default=default, metavar="KEY", help=f"{keys}; several with commas, or all (default: {default})"
-    )
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        dest="settings",
-        help="a setting of the solvers, e.g. alpha=0.01 or transpose.step=unit; may be repeated",
-    )
-    parser.add_argument("--limits", action="store_true", help="keep all weights within the limits of their shapes")
 
 
 def _info_options(parser: ArgumentParser) -> None:
@@ -141,7 +64,9 @@ def _solve_options(parser: ArgumentParser) -> None:
     add_rig(parser)
     parser.add_argument("--pins", type=Path, required=True, metavar="FILE", help="pins file (JSON)")
     add_solver(parser, "transpose")
-    parser.add_argument("--start", type=Path, metavar="POSE", help="pose to start from (default: the neutral)")
+    parser.add_argument(
+        "--start", type=Path, metavar="POSE", help="pose to start from (default: the neutral)"
+    )
     parser.add_argument(
         "--out", type=Path, metavar="POSE", help="write the solved pose; with several solvers, one file each"
     )
@@ -178,7 +103,9 @@ def _solve(options: Namespace) -> None:
 def _render_options(parser: ArgumentParser) -> None:
     add_rig(parser)
     parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file (default: the neutral)")
-    parser.add_argument("--size", type=_size, default=(1280, 720), metavar="WxH", help="pixels (default: 1280x720)")
+    parser.add_argument(
+        "--size", type=_size, default=(1280, 720), metavar="WxH", help="pixels (default: 1280x720)"
+    )
     parser.add_argument("--view", choices=("front", "left", "right", "three-quarter"), default="front")
     parser.add_argument("--transparent", action="store_true", help="leave out the background")
     parser.add_argument("--out", type=Path, required=True, metavar="PNG", help="where the picture goes")
@@ -186,7 +113,9 @@ def _render_options(parser: ArgumentParser) -> None:
 
 def _size(text: str) -> tuple[int, int]:
     width, _, height = text.lower().partition("x")
-    if not (width.isdecimal() and height.isdecimal() and 1 <= int(width) <= 32768 and 1 <= int(height) <= 32768):
+    if not (
+        width.isdecimal() and height.isdecimal() and 1 <= int(width) <= 32768 and 1 <= int(height) <= 32768
+    ):
         raise ValueError(text)
     return int(width), int(height)
 
@@ -222,7 +151,11 @@ def _export_options(parser: ArgumentParser) -> None:
     add_rig(parser)
     parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file (default: the neutral)")
     parser.add_argument(
-        "--out", type=Path, required=True, metavar="FILE", help="the suffix is the format: .glb, .obj, .ply or .stl"
+        "--out",
+        type=Path,
+        required=True,
+        metavar="FILE",
+        help="the suffix is the format: .glb, .obj, .ply or .stl",
     )
 
 

@@ -16,8 +16,17 @@ from facepin.files.atomic import atomic_write
 from facepin.files.formats import write_model
 from facepin.files.pose_file import read_pose, write_pose
 from facepin.gpu.picture import draw_picture, png_bytes
+from facepin.options import BUILTIN
 from facepin.panels.file_dialog import FileDialog, Kind
-from facepin.panels.requests import VIEW_COMMANDS, CancelLoading, Command, OpenPath, Request, SetPin, UseSolver
+from facepin.panels.requests import (
+    VIEW_COMMANDS,
+    CancelLoading,
+    Command,
+    OpenPath,
+    Request,
+    SetPin,
+    UseSolver,
+)
 from facepin.panels.view import View
 from facepin.resources import resource
 from facepin.session.drag import DragTool
@@ -26,8 +35,6 @@ from facepin.session.loading import Loading
 from facepin.session.session import Session, Work
 from facepin.session.solving import SolverChoice
 from facepin.stage import Stage
-
-BUILTIN = "faces/ada.npz"
 
 _POSES = ("Poses", "*.json *.csv")
 _DIALOGS: dict[Command, tuple[Kind, tuple[str, ...]]] = {
@@ -228,9 +235,7 @@ class Desk:
     def _ask(self, command: Command, start: Path) -> None:
         kind, filters = _DIALOGS[command]
         self._asked = command
-        self.dialog = FileDialog(
-            kind, command.title.rstrip("…"), start, filters, use_native=self._native
-        )
+        self.dialog = FileDialog(kind, command.title.rstrip("…"), start, filters, use_native=self._native)
 
     def _answered(self, path: Path) -> None:
         """Go on with what the dialog was for."""
@@ -242,7 +247,7 @@ class Desk:
         rig, pose = self.session.rig, self.session.pose
         if self._asked is Command.LOAD_POSE:
             loaded, report = read_pose(path, rig)
-            self.apply(Edit(f"Load {path.name}", True, weights=loaded.weights))
+            self.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
             self.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
         elif self._asked is Command.SAVE_POSE:
             write_pose(path, rig, pose)

@@ -21,9 +21,10 @@ from facepin.core.events import (
 )
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.desk import BUILTIN, Desk
+from facepin.desk import Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
 from facepin.gpu.canvas import Canvas
+from facepin.options import BUILTIN
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.menu import menu_bar, pin_menu
@@ -84,9 +85,7 @@ def run(window: Window, start: Start) -> None:
 def frames(window: Window, start: Start) -> Iterator[Frame]:
     """Run the program frame by frame; ends when the user quits."""
     preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
-    preferences, complaint = (
-        read_preferences(preferences_file) if preferences_file else (Preferences(), None)
-    )
+    preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
     view = View(freedom=preferences.freedom, quality=preferences.quality, ui_scale=preferences.ui_scale)
     _set_up_imgui(start.settings_folder)
     software = _is_software(window.ctx)
@@ -161,7 +160,14 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
             scene = _scene_key(desk, viewport, canvas, window.size)
             if scene != drawn_scene:
                 canvas.resize(*window.size)
-                desk.stage.draw(canvas.framebuffer, (viewport,), desk.camera, desk.tool, window.scale)
+                desk.stage.draw(
+                    canvas.framebuffer,
+                    (viewport,),
+                    desk.camera,
+                    desk.tool,
+                    window.scale,
+                    fine=canvas is smooth,
+                )
                 drawn_scene = scene
             canvas.resolve(window.ctx.screen)
         else:
@@ -262,7 +268,9 @@ def _route(
     if io.want_capture_mouse and not isinstance(event, PointerReleased):
         desk.tool.hovered = None
         return None
-    inside = isinstance(event, PointerMoved | PointerPressed | Scrolled) and viewport.contains(event.x, event.y)
+    inside = isinstance(event, PointerMoved | PointerPressed | Scrolled) and viewport.contains(
+        event.x, event.y
+    )
     if not inside:
         return None
     if isinstance(event, PointerPressed) and event.button == "right" and not event.modifiers.alt:
@@ -296,9 +304,7 @@ def _bars(desk: Desk, recent: list[Path], seconds: float) -> list[Request]:
     if solved is not None and desk.stage is not None:
         timing = f"solve {solved.seconds * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
-    status_line(
-        rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ()
-    )
+    status_line(rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ())
     if desk.loading is not None:
         asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
     if desk.dialog is not None:

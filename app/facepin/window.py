@@ -7,7 +7,7 @@ import ctypes
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 # glfw must come after imgui_bundle: the two then share one GLFW library, and imgui's compiled backend can be
 # given the address of a window that pyGLFW made.
@@ -90,12 +90,12 @@ class Window:
         with _Complaints() as complaints:
             if not glfw.init():
                 raise NoDisplay(f"no display was found ({complaints})")
-            self._handle = _create(title, size, windowless)
+            self._handle: Any = _create(title, size, windowless)
             if not self._handle:
                 glfw.terminate()
                 raise FacepinError(f"no window with OpenGL 3.3 could be opened ({complaints})")
         glfw.make_context_current(self._handle)
-        self.ctx = moderngl.create_context(context=_Loader())
+        self.ctx = moderngl.create_context(**{"context": _Loader()})
         glfw.swap_interval(0 if windowless else 1)
         self._forced_scale = scale
         # Where the last event left the mouse.  Asking for it in a callback would tell where the mouse is by now:
@@ -165,10 +165,14 @@ class Window:
     def inject(self, *events: Event) -> None:
         """Make events happen in a windowless window as if the user had caused them, for imgui too."""
         address = self._address
+        # Unless the mouse is known to be inside, the backend asks the null platform where it is: at (0, 0).
+        imgui.backends.glfw_cursor_enter_callback(address, 1)
         for event in events:
             match event:
                 case PointerMoved(x, y):
-                    imgui.backends.glfw_cursor_pos_callback(address, x / self.pixel_ratio, y / self.pixel_ratio)
+                    imgui.backends.glfw_cursor_pos_callback(
+                        address, x / self.pixel_ratio, y / self.pixel_ratio
+                    )
                 case PointerPressed(button=button) | PointerReleased(button=button):
                     code = next(code for code, name in _BUTTONS.items() if name == button)
                     action = glfw.PRESS if isinstance(event, PointerPressed) else glfw.RELEASE
@@ -267,23 +271,22 @@ class _Loader:
 
 
 class _Complaints:
-    """Collects what glfw complains of inside a `with` block, instead of having it printed."""
-
-    def __init__(self) -> None:
-        self._lines: list[str] = []
+    """Keeps glfw from printing its complaints inside a `with` block; the last one can be told as a reason."""
 
     def __enter__(self) -> Self:
-        glfw.set_error_callback(lambda code, text: self._lines.append(text.decode(errors="replace")))
+        self._before = glfw.ERROR_REPORTING
+        glfw.ERROR_REPORTING = "ignore"
         return self
 
     def __exit__(self, *_: object) -> None:
-        glfw.set_error_callback(None)
+        glfw.ERROR_REPORTING = self._before
 
     def __str__(self) -> str:
-        return "; ".join(self._lines) or "glfw gives no reason"
+        _, text = glfw.get_error()
+        return text.decode(errors="replace") if text else "glfw gives no reason"
 
 
-def _create(title: str, size: tuple[int, int], windowless: bool) -> object:
+def _create(title: str, size: tuple[int, int], windowless: bool) -> Any:
     glfw.default_window_hints()
     glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, 3)
     glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, 3)

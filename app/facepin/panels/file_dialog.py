@@ -84,7 +84,7 @@ class FileDialog:
         imgui.text_disabled("Type a path and press Enter.")
         width = 6 * imgui.get_font_size()
         gap = imgui.get_style().item_spacing.x
-        imgui.same_line(imgui.get_content_region_max().x - 2 * width - gap)
+        imgui.same_line(imgui.get_window_width() - 2 * width - gap - imgui.get_style().window_padding.x)
         if imgui.button("Cancel", imgui.ImVec2(width, 0)) or imgui.is_key_pressed(imgui.Key.escape):
             self._finish(None)
         imgui.same_line()

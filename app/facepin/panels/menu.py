@@ -15,7 +15,9 @@ FREEDOMS: dict[Freedom, str] = {
 }
 
 
-def menu_bar(view: View, recent: Sequence[Path], undo: str | None, redo: str | None, pins: int) -> Request | None:
+def menu_bar(
+    view: View, recent: Sequence[Path], undo: str | None, redo: str | None, pins: int
+) -> Request | None:
     """Draw the menu bar; return what the user asks for, or None.
 
     Parameters

@@ -54,7 +54,9 @@ VIEW_COMMANDS: dict[Command, View] = {
 
 def command_for(event: KeyPressed) -> Command | None:
     """Return the command a key asks for, or None."""
-    keys = ["ctrl"] * event.modifiers.control + ["shift"] * event.modifiers.shift + ["alt"] * event.modifiers.alt
+    keys = (
+        ["ctrl"] * event.modifiers.control + ["shift"] * event.modifiers.shift + ["alt"] * event.modifiers.alt
+    )
     pressed = "+".join([*keys, event.key])
     for command in Command:
         if any(shortcut.lower() == pressed for shortcut in command.shortcuts):

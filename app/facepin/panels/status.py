@@ -15,7 +15,9 @@ def status_line(
 ) -> None:
     """Draw the line at the bottom: what is open, how fast it is, and the last message."""
     height = imgui.get_frame_height() + imgui.get_style().window_padding.y * 0.5
-    flags = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_docking
+    flags = (
+        imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_docking
+    )
     imgui.push_style_var(
         imgui.StyleVar_.window_padding,
         imgui.ImVec2(imgui.get_style().window_padding.x, imgui.get_style().window_padding.y * 0.4),
@@ -54,7 +56,9 @@ def loading_card(name: str, fraction: float, line: str) -> CancelLoading | None:
     imgui.set_next_window_pos(middle, imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
     imgui.set_next_window_size(imgui.ImVec2(26 * imgui.get_font_size(), 0))
     flags = (
-        imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_docking
+        imgui.WindowFlags_.no_decoration
+        | imgui.WindowFlags_.no_saved_settings
+        | imgui.WindowFlags_.no_docking
     )
     imgui.begin("##loading", None, flags)
     imgui.text(f"Opening {name}")

@@ -5,7 +5,15 @@ from dataclasses import dataclass
 from math import pi
 
 from facepin.core.camera import Camera, Viewport
-from facepin.core.events import Button, Event, Modifiers, PointerMoved, PointerPressed, PointerReleased, Scrolled
+from facepin.core.events import (
+    Button,
+    Event,
+    Modifiers,
+    PointerMoved,
+    PointerPressed,
+    PointerReleased,
+    Scrolled,
+)
 
 Motion = Callable[[Camera, float, float, Viewport], Camera]
 """(camera, dx, dy in pixels, viewport) -> camera."""

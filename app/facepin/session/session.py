@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
@@ -19,6 +20,8 @@ class Work:
     """What undo brings back: the poses of all panes, and where their last drag began."""
 
     poses: Poses
+    hand: tuple[Floats, ...]
+    """Per pane, the weights last made otherwise than by dragging: where solvers start that take all pins afresh."""
     began: Poses | None = None
     """The poses before the drag that led here, so that another solver can be asked for the same drag."""
 
@@ -36,7 +39,8 @@ class Session:
         self.message = ""
         """Why the last edit could not be carried out as asked; empty when it could."""
         self._solvers = [PinSolver(rig, choice) for choice in choices]
-        self._history = History(Work((pose or rest_pose(rig),) * len(self._solvers)))
+        poses = (pose or rest_pose(rig),) * len(self._solvers)
+        self._history = History(Work(poses, tuple(pose.weights for pose in poses)))
         self._preview: Work | None = None
         self.solved: list[Solved | None] = [None] * len(self._solvers)
         """The answer of each pane's solver that its pose shows, None where the pose is not a solver's."""
@@ -120,7 +124,7 @@ class Session:
             return
         self.message = ""
         try:
-            pose = self._solve(pane, work.began[pane].with_pins(work.poses[pane].pins))
+            pose = self._solve(pane, work.began[pane].with_pins(work.poses[pane].pins), work.hand[pane])
         except FacepinError as error:
             self.message = str(error)
             return
@@ -137,19 +141,28 @@ class Session:
 
     def _edited(self, before: Work, edit: Edit) -> Work:
         """Return the work after an edit of `before`."""
+        pins = before.poses[0].pins if edit.pins is None else edit.pins
+        poses = tuple(pose.with_pins(pins) for pose in before.poses)
         if edit.weights is not None:
             self.solved[self.active] = None
-            pose = snapped(self.rig, before.poses[self.active].with_weights(edit.weights))
-            return Work((*before.poses[: self.active], pose, *before.poses[self.active + 1 :]))
-        if edit.pins is None:
-            raise ValueError("an edit changes pins or weights")
-        moved = tuple(pose.with_pins(edit.pins) for pose in before.poses)
-        if not edit.solve:
-            return Work(moved)
-        return Work(tuple(self._solve(i, pose) for i, pose in enumerate(moved)), before.poses)
+            pose = poses[self.active].with_weights(edit.weights)
+            if edit.pins is None:
+                pose = snapped(self.rig, pose)
+            return _by_hand((*poses[: self.active], pose, *poses[self.active + 1 :]))
+        if edit.solve:
+            solved = (self._solve(i, pose, before.hand[i]) for i, pose in enumerate(poses))
+            return Work(tuple(solved), before.hand, before.poses)
+        # A new pin holds what is there; without a pin that was there, what it made must not fall back.
+        placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in before.poses[0].pins}
+        return replace(before, poses=poses, began=None) if placed else _by_hand(poses)
 
-    def _solve(self, pane: int, pose: Pose) -> Pose:
-        """Return the pose with its weights carried towards its pins, starting from its own weights."""
-        solved = self._solvers[pane].solve(pose.pins, pose.weights)
+    def _solve(self, pane: int, pose: Pose, hand: Floats) -> Pose:
+        """Return the pose with its weights carried towards its pins."""
+        solver = self._solvers[pane]
+        solved = solver.solve(pose.pins, hand if solver.choice.kind.afresh else pose.weights)
         self.solved[pane] = solved
         return pose.with_weights(solved.weights)
+
+
+def _by_hand(poses: Poses) -> Work:
+    return Work(poses, tuple(pose.weights for pose in poses))

@@ -76,10 +76,14 @@ class PinSolver:
         try:
             solution = self._prepare(pins)(displacement, start)
         except np.linalg.LinAlgError as error:
-            raise FacepinError(f"{self.choice.kind.title} found no solution for these pins: {error}") from error
+            raise FacepinError(
+                f"{self.choice.kind.title} found no solution for these pins: {error}"
+            ) from error
         weights = solution.weights
         if not np.isfinite(weights).all():
-            raise FacepinError(f"{self.choice.kind.title} gave weights that are not finite; the last pose is kept")
+            raise FacepinError(
+                f"{self.choice.kind.title} gave weights that are not finite; the last pose is kept"
+            )
         if self.choice.keep_limits and not self.choice.kind.obeys_limits:
             # A weight that began outside its limits may stay there: nothing is clipped behind the user's back.
             low, high = np.minimum(self._rig.limits[:, 0], start), np.maximum(self._rig.limits[:, 1], start)

@@ -49,6 +49,10 @@ class SolverKind:
     prepare: Callable[[PinSystem, Any], Solve]
     """Does the work that needs J only (a factorisation), so that a drag frame does the rest."""
     obeys_limits: bool = False
+    afresh: bool = False
+    """Solves all pins afresh on every drag: its start is the last pose that no drag made (the neutral, sliders, a
+    loaded pose), not the weights at the press.  Nothing jumps at a press, since the same pins have the same answer,
+    and the order of the drags leaves no trace."""
 
 
 def setting(

@@ -1,0 +1,97 @@
+"""What several commands share: options, and opening what they name."""
+
+import sys
+from argparse import ArgumentParser
+from pathlib import Path
+
+from facepin.core.errors import FacepinError
+from facepin.core.pose import Pose, rest_pose
+from facepin.core.rig import Rig
+from facepin.resources import resource
+from facepin.session.solving import SolverChoice, choose
+from facepin.solvers import SOLVERS
+from facepin.solvers.settings import parse_settings
+
+BUILTIN = "faces/ada.npz"
+"""The face that is there when no other is named."""
+
+
+def open_with_bar(path: Path | None, neutral: str | None = None) -> Rig:
+    """Open a rig (the built-in face for None), with a progress bar where a person is watching."""
+    from facepin.files import open_rig
+
+    path = path or resource("assets", BUILTIN)
+    if not sys.stderr.isatty():
+        return open_rig(path, neutral=neutral)
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(f"Opening {path.name}", total=1.0)
+        return open_rig(
+            path,
+            neutral=neutral,
+            progress=lambda done, line: bar.update(task, completed=done, description=line),
+        )
+
+
+def solver_choices(keys: str, settings: list[str], keep_limits: bool) -> list[SolverChoice]:
+    """Return the solvers of a comma-separated list (or "all") with `name=value` settings.
+
+    Raises
+    ------
+    FacepinError
+        Naming the solvers or settings that exist.
+    """
+    names = list(SOLVERS) if keys == "all" else [key.strip() for key in keys.split(",") if key.strip()]
+    if not names:
+        raise FacepinError(f"no solver was named (there are: {', '.join(SOLVERS)})")
+    kinds = {name: choose(name).kind for name in names}
+    try:
+        parsed = parse_settings(kinds.values(), settings)
+    except ValueError as error:
+        raise FacepinError(str(error)) from error
+    return [choose(name, parsed[name], keep_limits) for name in names]
+
+
+def first_pose(rig: Rig, pose: Path | None, pins: Path | None) -> Pose:
+    """Return the pose that files ask for: weights from a pose file, pins from a pins file."""
+    from facepin.files.pins_file import read_pins
+    from facepin.files.pose_file import read_pose
+
+    start = rest_pose(rig)
+    if pose is not None:
+        start, report = read_pose(pose, rig)
+        if report:
+            print(f"facepin: {pose.name}: {report}", file=sys.stderr)
+    return start if pins is None else start.with_pins(read_pins(pins, rig))
+
+
+def add_rig(parser: ArgumentParser) -> None:
+    """Add RIG and --neutral."""
+    parser.add_argument(
+        "rig", type=Path, metavar="RIG", help="a .glb, .gltf, .vrm, .npz or folder of .obj files"
+    )
+    parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
+
+
+def add_solver(parser: ArgumentParser, default: str) -> None:
+    """Add --solver, --set and --limits."""
+    keys = ", ".join(SOLVERS)
+    parser.add_argument(
+        "--solver",
+        default=default,
+        metavar="KEY",
+        help=f"{keys}; several with commas, or all (default: {default})",
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        dest="settings",
+        help="a setting of the solvers, e.g. alpha=0.01 or transpose.step=unit; may be repeated",
+    )
+    parser.add_argument(
+        "--limits", action="store_true", help="keep all weights within the limits of their shapes"
+    )

@@ -1,0 +1,277 @@
+"""The whole application, driven without a screen."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from driver import App, running
+from PIL import Image
+
+from facepin.core.events import FilesDropped, PointerMoved, PointerReleased, Scrolled
+from facepin.core.pose import Pin, Pose
+from facepin.core.rig import Rig
+from facepin.panels.requests import Command
+from facepin.session.solving import PinSolver, choose
+
+
+@pytest.fixture(scope="module")
+def narrow(shared: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The narrow ICT face, unpacked."""
+    import tarfile
+
+    folder = tmp_path_factory.mktemp("narrow")
+    with tarfile.open(shared / "models/ict-facekit/ict_narrowface_expressions.tar.xz") as archive:
+        archive.extractall(folder, filter="data")
+    return folder / "ict_narrowface_expressions"
+
+
+def chin(app: App) -> int:
+    """Vertex of the skin that jawOpen moves most, seen from the front."""
+    rig = app.session.rig
+    jaw = rig.shape_names.index("jawOpen")
+    moves = rig.deltas[:, [jaw]].toarray().reshape(-1, 3)
+    x, _, z = rig.neutral.T
+    front = (z > 0.75 * z.max()) & (np.abs(x) < 0.02 * rig.height)
+    return int(np.argmin(np.where(front, moves[:, 1], np.inf)))
+
+
+@pytest.mark.parametrize("solver", ["pseudo_inverse", "tikhonov", "transpose", "hybrid"])
+def test_press_on_the_chin_drag_down_release(narrow: Path, solver: str) -> None:
+    with running(narrow, solver) as app:
+        before = app.session.pose
+        x, y = app.pixel_of(chin(app))
+        app.press(x, y)
+        (pin,) = app.session.pose.pins
+        for step in range(1, 31):
+            app.move(x, y + step)
+        app.release(x, y + 30)
+        rig, pose = app.session.rig, app.session.pose
+        jaw = rig.shape_names.index("jawOpen")
+        assert pose.weights[jaw] > 0.05
+
+        # The pin's vertex is on its goal up to what the solver itself says is left.
+        solved = app.session.solved[0]
+        position = rig.evaluate(pose.weights)[pin.vertex].astype(float)
+        miss = np.linalg.norm(np.subtract(pose.pins[0].goal, position))
+        assert miss == pytest.approx(solved.pin_error, abs=1e-4 * rig.height)
+        if solver in ("pseudo_inverse", "tikhonov"):
+            assert miss < 0.01 * rig.height
+
+        # Thirty moves and one straight solve give the same weights.
+        straight = PinSolver(rig, choose(solver)).solve(pose.pins, before.weights)
+        np.testing.assert_allclose(pose.weights, straight.weights, atol=1e-9)
+
+        # The picture shows what the session says.
+        np.testing.assert_allclose(app.desk.stage.positions(0)[pin.vertex], position, atol=1e-5)
+
+        app.key("z", control=True)
+        assert app.session.pose is before
+        app.key("z", control=True, shift=True)
+        assert app.session.pose is pose
+
+
+def test_escape_cancels_a_drag() -> None:
+    with running() as app:
+        before = app.session.pose
+        x, y = app.pixel_of(chin(app))
+        app.press(x, y)
+        app.move(x, y + 40)
+        assert app.session.pose.weights.any()
+        app.key("escape")
+        assert app.session.pose is before
+        app.release(x, y + 40)
+        assert app.session.pose is before
+
+
+def test_pins_hold_while_others_are_dragged_and_delete_removes_the_selected() -> None:
+    with running(solver="tikhonov") as app:
+        first = chin(app)
+        x, y = app.pixel_of(first)
+        app.drag((x, y), (x, y + 30))
+        goal = app.session.pose.pins[0].goal
+        brow = int(
+            np.argmax(np.where(app.session.rig.neutral[:, 2] > 5, app.session.rig.neutral[:, 1], -np.inf))
+        )
+        bx, by = app.pixel_of(brow)
+        app.drag((bx, by), (bx, by - 15))
+        pins = app.session.pose.pins
+        assert len(pins) == 2
+        assert pins[0].goal == goal
+        app.key("delete")
+        assert [pin.vertex for pin in app.session.pose.pins] == [pins[0].vertex]
+        app.key("z", control=True)
+        assert app.session.pose.pins == pins
+
+
+def test_dragging_a_slider_moves_the_face_at_once_and_is_one_undo_step() -> None:
+    with running() as app:
+        before = app.session.pose
+        rest = app.desk.stage.positions(0)
+        x, y = 1110.0, 445.0  # the left end of some row's slider
+        app.press(x, y)
+        for step in range(1, 11):
+            app.move(x + 6 * step, y)
+            assert app.session.in_gesture
+        app.release(x + 60, y)
+        (changed,) = np.flatnonzero(app.session.pose.weights)
+        assert 0.2 < app.session.pose.weights[changed] < 0.8
+        assert app.session.undo_label == f"Set {app.session.rig.shape_names[changed]}"
+        assert not np.array_equal(app.desk.stage.positions(0), rest)
+        app.key("z", control=True)
+        assert app.session.pose is before
+
+
+def test_home_resets_the_pose() -> None:
+    with running() as app:
+        x, y = app.pixel_of(chin(app))
+        app.drag((x, y), (x, y + 30))
+        app.key("home")
+        assert not app.session.pose.weights.any()
+        # The pin stays, its goal back on its vertex.
+        (pin,) = app.session.pose.pins
+        np.testing.assert_allclose(pin.goal, app.session.rig.neutral[pin.vertex], atol=1e-6)
+
+
+def test_the_wheel_zooms_and_f_frames_again() -> None:
+    with running() as app:
+        app.key("f")
+        framed = app.desk.camera
+        app.step(PointerMoved(400, 300), frames=2)
+        app.step(Scrolled(400, 300, 3), frames=2)
+        assert app.desk.camera.distance < framed.distance
+        app.key("f")
+        assert app.desk.camera.distance == pytest.approx(framed.distance)
+
+
+def test_dragging_beside_the_face_turns_the_camera_and_alt_does_so_on_it() -> None:
+    with running() as app:
+        for at, held in (((60, 120), {}), (app.pixel_of(chin(app)), {"alt": True})):
+            before = app.desk.camera
+            app.drag(at, (at[0] + 50, at[1] + 20), **held)
+            assert app.desk.camera.yaw != before.yaw
+        assert not app.session.pose.pins
+
+
+def test_nothing_is_drawn_when_nothing_happens() -> None:
+    with running() as app:
+        app.step(frames=8)
+        for _ in range(5):
+            app.step()
+            assert not app.frame.drawn
+        app.step(PointerMoved(300, 300))
+        assert app.frame.drawn
+
+
+def test_the_face_is_solved_once_per_frame_however_many_mouse_events_came() -> None:
+    with running() as app:
+        x, y = app.pixel_of(chin(app))
+        app.press(x, y)
+        solved = []
+        solver = app.session._solvers[0]
+        original = solver.solve
+        solver.solve = lambda pins, start: solved.append(1) or original(pins, start)
+        app.step(*(PointerMoved(x, y + step) for step in range(4, 44)))
+        assert len(solved) == 1
+        one = app.session.pose.weights
+        app.step(PointerMoved(x, y + 43))
+        np.testing.assert_array_equal(one, app.session.pose.weights)
+        app.step(PointerReleased(x, y + 43), frames=2)
+
+
+def test_a_dropped_file_is_opened_and_a_bad_one_leaves_everything_in_place(shared: Path) -> None:
+    with running() as app:
+        x, y = app.pixel_of(chin(app))
+        app.drag((x, y), (x, y + 30))
+        pose = app.session.pose
+        app.step(FilesDropped((shared / "bad/glb_bad_magic.glb",)))
+        app.until(lambda: app.desk.loading is None)
+        assert app.desk.is_error
+        assert "glb_bad_magic.glb" in app.desk.message
+        assert app.session.pose is pose
+        app.step(FilesDropped((shared / "good/control.glb",)))
+        app.until(lambda: app.session.rig.name == "control")
+        assert app.desk.title.startswith("control")
+
+
+def test_opening_can_be_cancelled(narrow: Path) -> None:
+    with running(wait=False) as app:
+        app.until(lambda: app.desk.stage is not None)
+        rig = app.session.rig
+        app.desk.open(narrow)
+        app.desk.loading.cancel()
+        app.until(lambda: app.desk.loading is None)
+        assert app.session.rig is rig
+        assert not app.desk.is_error
+
+
+def test_a_pose_is_saved_and_loaded_by_typing_a_path(tmp_path: Path) -> None:
+    with running() as app:
+        x, y = app.pixel_of(chin(app))
+        app.drag((x, y), (x, y + 30))
+        assert "*" in app.desk.title
+        path = tmp_path / "pose.json"
+        _answer(app, Command.SAVE_POSE, path)
+        assert "*" not in app.desk.title
+        saved = json.loads(path.read_text())
+        weights = app.session.pose.weights
+        names = app.session.rig.shape_names
+        assert [saved["weights"][name] for name in names] == pytest.approx(weights.tolist())
+        app.key("home")
+        _answer(app, Command.LOAD_POSE, path)
+        np.testing.assert_allclose(app.session.pose.weights, weights)
+        assert len(app.session.pose.pins) == 1
+        _answer(app, Command.EXPORT, tmp_path / "posed.obj")
+        assert (tmp_path / "posed.obj").stat().st_size > 1000
+        _answer(app, Command.EXPORT, tmp_path / "posed.docx")
+        assert app.desk.is_error
+        assert ".docx" in app.desk.message
+
+
+def _answer(app: App, command: Command, path: Path) -> None:
+    """Ask for a command that asks for a path, and answer it."""
+    app.desk.carry_out(command, app.frame.viewport)
+    app.step(PointerMoved(5, 5), frames=2)
+    assert app.desk.dialog is not None
+    app.desk.dialog._finish(path)
+    app.step(PointerMoved(6, 6), frames=3)
+
+
+def test_f12_saves_the_picture_without_panels(tmp_path: Path) -> None:
+    with running(pictures=tmp_path / "shots") as app:
+        app.key("f12")
+        app.key("f12")
+        found = sorted((tmp_path / "shots").iterdir())
+        assert [path.name for path in found] == ["ada-001.png", "ada-002.png"]
+        picture = np.asarray(Image.open(found[0]))
+        viewport = app.frame.viewport
+        assert picture.shape[:2] == (round(viewport.height), round(viewport.width))
+        # What the window shows there, but for the hint at the bottom.
+        x, y = round(viewport.x), round(viewport.y)
+        shown = app.screenshot()[y : y + picture.shape[0] - 80, x : x + picture.shape[1]]
+        assert np.abs(shown.astype(int) - picture[:-80, :, :3]).mean() < 1.0
+
+
+def test_a_pose_with_pins_to_begin_with() -> None:
+    def first(rig: Rig) -> Pose:
+        x, y, z = rig.neutral[100].tolist()
+        return Pose(np.zeros(rig.shape_count), (Pin(100, (x, y - 0.5, z)),))
+
+    with running(first_pose=first) as app:
+        assert app.session.pose.pins[0].vertex == 100
+
+
+def test_preferences_are_kept_and_broken_ones_do_not_stop_the_start(tmp_path: Path, shared: Path) -> None:
+    (tmp_path / "preferences.json").write_text("{ broken")
+    with running(shared / "good/control.npz", settings_folder=tmp_path) as app:
+        assert app.session.rig.name == "control"
+        app.step(PointerMoved(3, 3), frames=3)
+    kept = json.loads((tmp_path / "preferences.json").read_text())
+    assert [Path(path).name for path in kept["recent"]] == ["control.npz"]
+
+
+@pytest.mark.parametrize(("size", "scale"), [((640, 360), 1.0), ((2560, 1440), 2.0), ((300, 200), 1.0)])
+def test_every_size_of_window_draws(size: tuple[int, int], scale: float) -> None:
+    with running(size=size, scale=scale) as app:
+        assert app.frame.viewport.width >= 1
+        assert app.screenshot().std() > 5

@@ -48,6 +48,7 @@ class Skull:
     """Between brow and nose, where the socket would otherwise cut a pit."""
     inner_canthus: Bone = Bone((1.75, -0.25, 6.75), (2.3, 0.2, 6.9), (0.5, 0.7), 1.1)
     """Taken away: the soft trough beside the nose."""
+    jaw_hinge: Vector = (0, -1.3, -0.6)
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,10 @@ class Eye:
     iris: float = 0.545
     """Half angle of the iris, radians."""
     pupil: float = 0.26
+    socket: float = 1.06
+    """Radius of the hollow above the eye, in eyeball radii."""
+    crease: float = 0.0
+    """Depth of the fold above the upper lid."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +102,9 @@ class Mouth:
     lower_lip: float = 0.74
     upper_fullness: float = 0.36
     lower_fullness: float = 0.46
+    upper_roll: float = 0.0
+    """How far the skin above the upper lip comes forward with it, in lip fullnesses."""
+    lower_roll: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -117,6 +125,8 @@ class Hair:
         (1.50, 1.35), (1.64, 1.30), (1.80, -0.4), (2.05, -3.2), (2.5, -5.0), (3.141592653589793, -5.6),
     )  # fmt: skip
     centre: Vector = (0, 3.4, -1.2)
+    locks: float = 0.0
+    """How far the hairline runs out into locks, radians."""
 
 
 @dataclass(frozen=True)

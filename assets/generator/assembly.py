@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from generator.character import MATERIALS, Character, swapped
 from generator.deformer import SkinDeformer
 from generator.shape import Shape
-from generator.shapes_eyes import brow_shapes, lid_shapes
+from generator.shapes_eyes import LID_SHAPES, brow_shapes, lid_shapes
 from generator.shapes_jaw import jaw_shapes
 from generator.shapes_mouth import mouth_shapes
 from generator.vectors import MIRROR, Array, Ints
@@ -29,6 +29,8 @@ ARKIT = (
 """The 52 shapes by their exact names, alphabetical."""
 SMALLEST = 1e-4
 """Shorter motions of a coordinate are dropped: they cost memory and show nothing."""
+CLOSING_LIFT = 0.08
+"""How far (in eyeball radii) wide-open lids rise while they close: their way is longer than a blink's."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +68,7 @@ def build_model(character: Character, names: Sequence[str] = ARKIT) -> FaceModel
             shapes[swapped(name)] = _mirrored(shapes[name], character, deformer)
     follow = _Followers(character)
     deltas = np.stack([follow.all_parts(shapes[name]) for name in names])
-    pairs, combos = _blink_combinations(shapes, names, character)
+    pairs, combos = _blink_combinations(shapes, names, character, deformer)
     return FaceModel(character, tuple(names), deltas, pairs, combos)
 
 
@@ -76,7 +78,8 @@ def _left_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shap
     for more in (brow_shapes(character, deformer), mouth_shapes(deformer)):
         for name, skin in more.items():
             old = shapes.get(name)
-            shapes[name] = Shape(old.skin + skin, old.parts, old.lid) if old else Shape(skin)
+            skin = deformer.slide_on_eyes(skin + old.skin) if old else deformer.slide_on_eyes(skin)
+            shapes[name] = Shape(skin, old.parts, old.lid) if old else Shape(skin)
     return shapes
 
 
@@ -123,9 +126,11 @@ class _Followers:
 
 
 def _blink_combinations(
-    shapes: dict[str, Shape], names: Sequence[str], character: Character
+    shapes: dict[str, Shape], names: Sequence[str], character: Character, deformer: SkinDeformer
 ) -> tuple[Ints, Array]:
     """Return the products with a blink that take back the other shape's motion of the lids."""
+    closed = LID_SHAPES["eyeBlinkLeft"][:2]
+    lift = deformer.lids(*closed, lift=CLOSING_LIFT).skin - deformer.lids(*closed).skin
     pairs: list[tuple[int, int]] = []
     deltas: list[Array] = []
     for name, shape in shapes.items():
@@ -133,9 +138,12 @@ def _blink_combinations(
         if shape.lid is None or name == blink or name not in names:
             continue
         lash = "lashL" if "Left" in name else "lashR"
+        rise = lift if "Left" in name else deformer.mirrored(lift)
+        roots = character.lash_roots if lash == "lashL" else deformer.mirror[character.lash_roots]
+        opens = float(name.startswith(("eyeWide", "eyeLookUp")))
         moved = np.zeros_like(character.vertices)
-        moved[character.at("skin")] = -shape.lid
-        moved[character.at(lash)] = -shape.parts[lash]
+        moved[character.at("skin")] = opens * rise - shape.lid
+        moved[character.at(lash)] = opens * rise[roots] - shape.parts[lash]
         moved[np.abs(moved) < SMALLEST] = 0
         pairs.append((names.index(blink), names.index(name)))
         deltas.append(moved)

@@ -23,7 +23,7 @@ def brow(field: HeadField) -> Mesh:
     out = unit(out - (out * along).sum(1)[:, None] * along)
     up = np.cross(out, along)
     up *= np.sign(up[:, 1:2])
-    start, end = np.clip((t + 0.015) / 0.16, 0, 1) ** 0.55, np.clip((1.01 - t) / 0.03, 0, 1) ** 0.5
+    start, end = np.clip((t + 0.006) / 0.18, 0, 1) ** 0.6, np.clip((1.01 - t) / 0.03, 0, 1) ** 0.5
     height = form.thickness * start * (1 - 0.82 * smoothstep(0.45, 1.02, t)) * end
     angle = 2 * np.pi * np.arange(AROUND) / AROUND
     rounded = np.sign(np.cos(angle)) * np.abs(np.cos(angle)) ** 0.9
@@ -49,7 +49,8 @@ def lashes(skin: Skin, field: HeadField) -> tuple[Mesh, Ints]:
     margin, inside = skin.vertices[root], skin.vertices[lining]
     outward = unit(margin - np.array(field.anatomy.eye.centre))
     t = np.linspace(0, 1, count)
-    length = mix(0.04, 0.36, smoothstep(0.05, 0.85, t)) * np.clip((1 - t) / 0.12, 0.02, 1)
+    length = mix(0.02, 0.36, smoothstep(0.05, 0.85, t)) * np.clip((1 - t) / 0.12, 0.02, 1)
+    thick = np.clip(length / 0.30, 0.05, 1)[:, None]
     tip = unit(outward + np.array([0.18, 0.55, 0.25]) + np.c_[0.5 * t, 0 * t, 0 * t])
     up = unit(np.cross(unit(np.gradient(margin, axis=0)), outward))
     up *= np.sign(up[:, 1:2])
@@ -59,10 +60,10 @@ def lashes(skin: Skin, field: HeadField) -> tuple[Mesh, Ints]:
 
     rows = [
         inside + outward * 0.02 - up * 0.01,
-        margin + outward * 0.015 + up * 0.05 * np.clip(length / 0.2, 0.4, 1)[:, None],
-        margin + outward * 0.05 + along(0.55) + up * 0.015,
+        margin + outward * 0.035 + up * 0.05 * thick,
+        margin + outward * (0.035 + 0.025 * thick) + along(0.55) + up * 0.015,
         margin + along(1) + up * 0.25 * length[:, None],
-        margin + outward * 0.02 + along(0.5) - up * 0.035,
+        margin + outward * 0.02 + along(0.5) - up * 0.03 * thick,
     ]
     vertices, _ = strips(rows)
     grid = np.arange(len(vertices)).reshape(len(rows), count)

@@ -111,7 +111,7 @@ def build_character(anatomy: Anatomy) -> Character:
         "gums": gums,
         "tongue": tongue(teeth_z, mouth.height - 0.85, colours),
         "hair": hair(field),
-        "shirt": shirt(colours),
+        "shirt": shirt(anatomy.skull, colours),
     }
     for name, mesh in left.items():
         parts[name + "L"], parts[name + "R"] = mesh, mesh.mirrored()

@@ -4,16 +4,19 @@ import numpy as np
 
 from generator.anatomy import Colour
 from generator.field import HeadField
+from generator.landmarks import FaceMap
 from generator.meshes import vertex_normals
 from generator.skin import Skin
-from generator.topology import EYE_LINING, LIP_RINGS, MOUTH_BAG
+from generator.topology import EYE_LINING, EYE_LOOP, LIP_RINGS, MOUTH_BAG
 from generator.vectors import Array, blob, mix, repeated, smoothstep
 
 LID_TINT: Colour = (0.80, 0.50, 0.42)
+LID_CREASE = {4: 0.10, 5: 0.45, 6: 0.15}
+"""Share of the lid tint in the rings about the crease."""
 LID_LINING: tuple[Colour, Colour] = ((0.85, 0.55, 0.50), (0.5, 0.25, 0.22))
 MOUTH_DARK: Colour = (0.33, 0.075, 0.075)
 THROAT: Colour = (0.2, 0.04, 0.04)
-OCCLUDED: Colour = (0.76, 0.58, 0.55)
+OCCLUDED: Colour = (0.79, 0.63, 0.59)
 """Skin that sees no sky is multiplied by this: dark and warm."""
 PROBES = ((0.15, 0.30), (0.4, 0.30), (0.9, 0.28), (1.7, 0.25))
 PART_GLOSS = -1.0
@@ -23,7 +26,8 @@ PART_GLOSS = -1.0
 def paint_skin(skin: Skin, field: HeadField) -> tuple[Array, Array]:
     """Return (n, 3) colours and (n,) roughness overrides (PART_GLOSS for none)."""
     colours, v = field.anatomy.colours, skin.vertices
-    side = np.c_[np.abs(v[:, 0]), v[:, 1:]]
+    side = FaceMap(field.anatomy).to_reference(v)
+    side[:, 0] = np.abs(side[:, 0])
     colour = repeated(colours.skin, len(v))
     for share, centre, radii in (
         (0.50, (3.9, -2.4, 5.5), (1.7, 1.25, 2.5)),
@@ -34,6 +38,13 @@ def paint_skin(skin: Skin, field: HeadField) -> tuple[Array, Array]:
     for k, share in enumerate((0.40, 0.26, 0.20, 0.16, 0.10, 0.05)):
         ring = skin.both_sides(skin.eye_rings[k])
         colour[ring] = mix(colour[ring], LID_TINT, share)
+    for k, share in LID_CREASE.items():
+        count = EYE_LOOP // 2 + 1
+        across = 1 - np.abs(np.linspace(-1, 1, count)) ** 4
+        for ring in (skin.eye_rings[k][:count], skin.mirror[skin.eye_rings[k][:count]]):
+            colour[ring] = mix(
+                colour[ring], LID_TINT, (share * across * (field.anatomy.eye.crease > 0))[:, None]
+            )
     colour *= _occlusion(skin, field, side)
     gloss = _paint_mouth(colour, skin, field)
     for k in range(-EYE_LINING, 0):
@@ -46,6 +57,7 @@ def _occlusion(skin: Skin, field: HeadField, side: Array) -> Array:
     is_open = field.occlusion(skin.vertices, vertex_normals(skin.vertices, skin.triangles), PROBES)
     shade = 1 - np.clip(is_open, 0.25, 1)
     shade *= 1 - 0.72 * blob(side, (2.0, 0.9, 6.2), (1.8, 1.5, 2.0))
+    shade *= 1 - 0.60 * blob(side, (4.2, 0.6, 5.0), (2.0, 2.2, 2.6))
     nostril = blob(side, (0.5, -3.15, 7.65), (0.28, 0.35, 0.36))
     shade *= 1 - 0.50 * blob(side, (0.5, -3.6, 7.0), (1.6, 0.7, 1.2)) * (1 - 0.55 * nostril)
     return mix(OCCLUDED, (1, 1, 1), (1 - shade)[:, None])

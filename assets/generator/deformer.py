@@ -8,19 +8,24 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from generator.anatomy import Anatomy
+from generator.landmarks import FaceMap
 from generator.meshes import vertex_normals
 from generator.openings import lip_curves
 from generator.skin import LIP_PROFILE, Skin
 from generator.topology import EYE_LOOP, EYE_RINGS, LIP_RINGS, MOUTH_RINGS
-from generator.vectors import MIRROR, Array, Ints, Mask, blob, turn, unit
+from generator.vectors import MIRROR, Array, Ints, Mask, blob, mix, smoothstep, turn, unit
 
 NO_RING = 99
 BAG_FOLLOWS = ((-1, 1.0), (-2, 0.97), (-3, 0.8), (-4, 0.5), (-5, 0.22))
 """(ring, share of the lips' motion that the inside of the mouth follows)"""
-LID_FOLLOWS = {-3: 0.8, -2: 1.0, -1: 1.0, 0: 1.0, 1: 0.93, 2: 0.83, 3: 0.68, 4: 0.50}
+LID_FOLLOWS = {-3: 0.8, -2: 1, -1: 1, 0: 1, 1: 0.95, 2: 0.87, 3: 0.76, 4: 0.62, 5: 0.47, 6: 0.32}
 """Share of the margin's turn that each lid ring makes."""
-BLINK_BULGE = {-3: 0, -2: 0, -1: 0.03, 0: 0.052, 1: 0.058, 2: 0.058, 3: 0.048, 4: 0.030}
+BLINK_BULGE = {-3: 0, -2: 0, -1: 0.03, 0: 0.052, 1: 0.058, 2: 0.058, 3: 0.048, 4: 0.035, 5: 0.018, 6: 0.006}
 """How far a closed lid rises, in eyeball radii: half way, the straight path of a blink would cut the eye."""
+LIFT_FOLLOWS = {-1: 0.9, 0: 1.0, 1: 1.0, 2: 1.0, 3: 1.0, 4: 0.9, 5: 0.5, 6: 0.2}
+"""Share of a lift that each lid ring makes."""
+CANTHUS_HOLD = 0.70
+"""Share of its turn that a lid loses at the corners of the eye outside the margin: else skin folds over."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +79,9 @@ class SkinDeformer:
         self.vertices, self.mirror = skin.vertices, skin.mirror
         self.count = n = len(skin.vertices)
         self.normals = vertex_normals(skin.vertices, skin.triangles)
-        self.off_centre: Array = np.abs(skin.vertices[:, 0])
+        self.map = FaceMap(anatomy)
+        self.reference = self.map.to_reference(skin.vertices)
+        self.off_centre: Array = np.abs(self.reference[:, 0])
         self._operator = _bilaplacian(skin.vertices, skin.triangles)
         self.mouth_ring, self.eye_ring = np.full(n, NO_RING), np.full(n, NO_RING)
         self.across, self.side = np.zeros(n), np.zeros(n)
@@ -96,9 +103,9 @@ class SkinDeformer:
         self.depth[self.lip] = np.array(LIP_PROFILE)[self.mouth_ring[self.lip]]
 
     def brush(self, centre: Sequence[float], radii: Sequence[float], left_only: bool = False) -> Array:
-        """Return an (n,) bell about a point of the left side, and about its image unless `left_only`."""
-        left = blob(self.vertices, centre, radii)
-        return left if left_only else np.maximum(left, blob(self.vertices, MIRROR * np.array(centre), radii))
+        """Return an (n,) bell about a point of the reference face, and about its image unless `left_only`."""
+        left = blob(self.reference, centre, radii)
+        return left if left_only else np.maximum(left, blob(self.reference, MIRROR * np.array(centre), radii))
 
     def spread(self, handles: Ints, values: Array, fixed: Mask) -> Array:
         """Return (n, ...) values: given at `handles`, 0 at `fixed`, the smoothest (biharmonic) elsewhere."""
@@ -133,13 +140,19 @@ class SkinDeformer:
         """
         handles = np.flatnonzero(self.lip)
         values = motion(Lips(self.across[handles], self.side[handles], self.depth[handles]))
-        q = (self.vertices - np.array([0, -5.8, 5.5])) / np.array(reach)
-        still = ((q**2).sum(1) > 1) | (self.vertices[:, 1] > -1.6) | (self.eye_ring < 8) | self.inside
+        values = values * self.map.mouth_scale
+        q = (self.reference - np.array([0, -5.8, 5.5])) / np.array(reach)
+        still = ((q**2).sum(1) > 1) | (self.reference[:, 1] > -1.6) | (self.eye_ring < 8) | self.inside
         nose = self.brush((0, -2.3, 8.2), (0.9, 0.9, 0.9)) > 0.35
         return self.follow_inside(self.spread(handles, values, (still | nose) & ~self.lip))
 
     def lids(
-        self, upper: float, lower: float, blink: float = 0.0, shift: tuple[float, float] = (0, 0)
+        self,
+        upper: float,
+        lower: float,
+        blink: float = 0.0,
+        shift: tuple[float, float] = (0, 0),
+        lift: float = 0.0,
     ) -> LidMove:
         """Return the motion of the left lids: each margin turns about the eyeball towards the other.
 
@@ -151,6 +164,8 @@ class SkinDeformer:
             How far the lids rise off the eyeball on the way (BLINK_BULGE).
         shift : (float, float)
             Extra motion in x and y, for lids that follow the gaze.
+        lift : float
+            Further rise of both lids off the eyeball, in eyeball radii.
         """
         skin, centre = self.skin, np.array(self.anatomy.eye.centre)
         radius = self.anatomy.eye.radius
@@ -170,18 +185,34 @@ class SkinDeformer:
         for k, share in LID_FOLLOWS.items():
             ring = skin.eye_rings[k]
             start = self.vertices[ring] - centre
-            lift = blink * (1 - s**4) * radius * BLINK_BULGE[k]
+            rise = (blink * BLINK_BULGE[k] + lift * LIFT_FOLLOWS.get(k, 0)) * (1 - s**4) * radius
             if k >= 0:
-                lift = lift + np.where(is_upper, 0.006, 0) * blink
-            length = np.linalg.norm(start, axis=1) + lift
-            end = unit(turn(start, axes, angles * share)) * length[:, None]
+                rise = rise + np.where(is_upper, 0.006, 0) * blink
+            length = np.linalg.norm(start, axis=1) + rise
+            held = 1 - CANTHUS_HOLD * s**4 if k > 0 else 1.0
+            end = unit(turn(start, axes, angles * share * held)) * length[:, None]
             end = end + np.array([*shift, 0]) * share * (1 - s**3)[:, None]
             moved[ring] = end - start
         left = self.vertices[:, 0] > 0
-        handles = (self.eye_ring <= 4) & left
+        handles = (self.eye_ring <= max(LID_FOLLOWS)) & left
         q = (self.vertices - centre) / np.array([3.6, 2.9, 4.5])
         fixed = (((q**2).sum(1) > 1) | (self.vertices[:, 0] < 0.35)) & ~handles
         return LidMove(self.spread(np.flatnonzero(handles), moved[handles], fixed), axes, angles)
+
+    def slide_on_eyes(self, moved: Array) -> Array:
+        """Let skin about the eyes slide over the eyeballs, not into them; changes and returns `moved`."""
+        for side in (1.0, -1.0):
+            centre = np.array(self.anatomy.eye.centre) * np.array([side, 1, 1])
+            lids = (self.eye_ring >= 0) & (self.eye_ring < EYE_RINGS)
+            near = np.flatnonzero(lids & (self.vertices[:, 0] * side > 0))
+            start = self.vertices[near] - centre
+            end = start + moved[near]
+            length = np.linalg.norm(end, axis=1)
+            rest = np.linalg.norm(start, axis=1)
+            on_lid = smoothstep(1.55, 1.15, rest / self.anatomy.eye.radius)
+            wanted = mix(length, np.maximum(length, rest), on_lid)
+            moved[near] = end * (wanted / length)[:, None] - start
+        return moved
 
     def mirrored(self, moved: Array) -> Array:
         """Return a displacement of the skin carried over to the other side."""
@@ -195,7 +226,7 @@ class SkinDeformer:
 
     def jaw_weights(self) -> Array:
         """Return (n,) how far each skin vertex goes with the jaw."""
-        v, across = self.vertices, np.abs(self.across)
+        v, across = self.reference, np.abs(self.across)
         y, z = v[:, 1], v[:, 2]
         lower, upper = 0.40 + 0.60 * (1 - across**3), 0.40 * across**2.6
         weights = np.zeros(self.count)

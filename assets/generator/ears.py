@@ -40,11 +40,13 @@ def ear(field: HeadField) -> Mesh:
         height += concha * (1 - 0.5 * lobe) + 0.08 * lobe * smoothstep(1, 0.7, size)
         tragus = np.exp(-(((rim[:, 1] + 0.05) / 0.55) ** 2)) * np.exp(-(((size - 0.62) / 0.22) ** 2))
         rows.append(np.c_[canal + (rim - canal) * size, height + 0.55 * front * tragus])
-    flat, triangles = strips(rows, closed=True, smallest=1e-6)
+    rows[-1][:] = rows[-1].mean(0)
+    flat, triangles = strips(rows, closed=True)
     local = flat[:, [2, 1, 0]]  # (out, up, forward)
     hinge = np.array([0, 0, 0.6])
     local = (local - hinge) @ rotation((0, 1, 0), -33).T + hinge
     local = local @ rotation((1, 0, 0), -8).T @ rotation((0, 0, 1), -3).T * 1.14
     root = field.raycast(np.array([[0, -0.9, -0.55]]), np.array([[1.0, 0, 0]]), 12)[0]
     colour = mix(field.anatomy.colours.skin, FLESH, 0.22)
-    return Mesh(local + root + np.array([0.16, 0.05, 0.05]), triangles, repeated(tuple(colour), len(local)))
+    local = local + root + np.array([0.16, 0.05, 0.05])
+    return Mesh(local, triangles, repeated(tuple(colour), len(local))).welded()

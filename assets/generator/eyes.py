@@ -6,7 +6,7 @@ from generator.anatomy import Colours, Eye
 from generator.meshes import Mesh, strips
 from generator.vectors import Array, mix, repeated, smoothstep
 
-MERIDIANS = 28
+MERIDIANS = 36
 PUPIL: tuple[float, float, float] = (0.012, 0.011, 0.012)
 SCLERA = ((0.92, 0.915, 0.905), (0.74, 0.62, 0.58))
 """White of the eye: in front, and towards the sides."""
@@ -15,7 +15,7 @@ SCLERA = ((0.92, 0.915, 0.905), (0.74, 0.62, 0.58))
 def eyeball(eye: Eye, colours: Colours) -> Mesh:
     """Return the left eyeball, looking along z."""
     fixed = (0.31, 0.39, 0.46, eye.iris - 0.055, eye.iris - 0.01, eye.iris + 0.02)
-    outer = (0.64, 0.75, 0.92, 1.15, 1.45, 1.85, 2.4, np.pi)
+    outer = (0.64, 0.80, 1.05, 1.40, 1.90, np.pi)
     angles = np.array([0, 0.10, 0.19, eye.pupil - 0.012, eye.pupil + 0.012, *fixed, *outer])
     around = 2 * np.pi * np.arange(MERIDIANS) / MERIDIANS
     rows, paint = [], []
@@ -27,8 +27,8 @@ def eyeball(eye: Eye, colours: Colours) -> Mesh:
         rows.append(row)
         paint.append(_ring_colour(i, angle, around, eye, colours) * lid_shadow[:, None])
     rows[0][:], rows[-1][:] = rows[0][0], rows[-1][0]
-    vertices, triangles = strips(rows, closed=True, smallest=1e-9)
-    return Mesh(vertices + np.array(eye.centre), triangles, np.concatenate(paint))
+    vertices, triangles = strips(rows, closed=True)
+    return Mesh(vertices + np.array(eye.centre), triangles, np.concatenate(paint)).welded()
 
 
 def _ring_colour(ring: int, angle: float, around: Array, eye: Eye, colours: Colours) -> Array:
@@ -41,7 +41,13 @@ def _ring_colour(ring: int, angle: float, around: Array, eye: Eye, colours: Colo
     fibres = 0.5 * np.sin(7.13 * k) + 0.5 * np.sin(3.7 * k + 1)
     low = 0.5 - 0.5 * np.sin(around)
     u = (angle - eye.pupil) / (eye.iris - eye.pupil)
-    light = 0.42 + low**1.5 * np.sin(np.pi * np.clip(u, 0.05, 1)) ** 0.7
-    colour = np.clip(np.array(colours.iris) * (light * (1 + 0.10 * fibres * (1 - u)))[:, None] * 1.15, 0, 1)
+    light = 0.60 + 0.95 * low**1.5 * np.sin(np.pi * np.clip(u, 0.05, 1)) ** 0.7
+    colour = np.clip(
+        np.array(colours.iris)
+        * (light * (1 + 0.22 * fibres * (1 - u) + 0.10 * (k % 2 - 0.5)))[:, None]
+        * 1.15,
+        0,
+        1,
+    )
     colour = mix(colour, colour * 0.22, smoothstep(0.62, 1, u))
     return colour * 0.55 if u < 0.12 else colour

@@ -71,13 +71,15 @@ class HeadField:
         neck = join(bone(points, skull.neck), ball(points, skull.shoulders), skull.shoulders.blend)
         d = join(d, neck, skull.neck.blend)
         from_eye = np.linalg.norm(side - np.array(eye.centre), axis=1)
-        d = cut(d, from_eye - eye.radius * 1.06, 1.5)
+        socket = mix(1.06, eye.socket, smoothstep(-0.5, 1.2, points[:, 1] - eye.centre[1]))
+        d = cut(d, from_eye - eye.radius * socket, 1.5)
         d = self._with_nose(d, points, side)
         d = join(d, ball(side, skull.brow_fill), skull.brow_fill.blend)
         d = cut(d, bone(side, skull.inner_canthus), skull.inner_canthus.blend)
         if lids:
-            lower = mix(0.62, 1.2, smoothstep(4.4, 5.6, side[:, 0]))
-            blend = mix(1.5, lower, smoothstep(-0.7, 0.5, points[:, 1]))
+            x, y = side[:, 0] - eye.centre[0], points[:, 1] - eye.centre[1]
+            upper = mix(0.62, 1.2, smoothstep(0.8, 2.0, x))
+            blend = mix(1.5, upper, smoothstep(-0.7, 0.5, y))
             d = join(d, from_eye - eye.radius * eye.lid_radius, blend)
         return d
 

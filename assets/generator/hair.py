@@ -6,7 +6,7 @@ from generator.field import HeadField
 from generator.meshes import Mesh, outwards, strips
 from generator.vectors import MIRROR, Array, columns, curve, mix, repeated, smoothstep, unit
 
-AROUND, ROWS = 68, 23
+AROUND, ROWS = 100, 23
 AZIMUTH = ((0, 0), (0.30, 1.05), (0.72, 2.0), (1, np.pi))
 """Angle of the columns, 0 front .. pi back, over their share of the way: closest together at the temples."""
 
@@ -23,9 +23,10 @@ def hair(field: HeadField) -> Mesh:
     lowest = np.arctan2(line - centre[1], 7.0 * np.where(angle < 1.0, 1.02, 0.92))
     fringe = np.exp(-((angle / 0.75) ** 2))
     rows = []
+    locks = form.locks * (_wave(angle, 1.0) - 0.5)
     for i in range(ROWS):
         t = min(i / (ROWS - 2), 1.0)
-        elevation = mix(np.pi / 2, lowest, t**0.9)
+        elevation = mix(np.pi / 2, lowest + locks * smoothstep(0.5, 1, t), t**0.9)
         direction = columns(
             np.cos(elevation) * np.sin(azimuth), np.sin(elevation), np.cos(elevation) * np.cos(azimuth)
         )
@@ -40,11 +41,15 @@ def hair(field: HeadField) -> Mesh:
     mirror = np.concatenate([i * AROUND + (-k) % AROUND for i in range(ROWS)])
     vertices = (vertices + vertices[mirror] * MIRROR) / 2
     starts = [vertices[i * AROUND : (i + 1) * AROUND] for i in range(ROWS)]
-    vertices, triangles = strips(starts, closed=True, smallest=1e-9)
+    vertices, triangles = strips(starts, closed=True)
     strands = 1 + 0.10 * np.sin(np.tile(angle, ROWS) * 18)
-    return Mesh(
-        vertices, outwards(vertices, triangles), np.array(field.anatomy.colours.hair) * strands[:, None]
-    )
+    colour = np.array(field.anatomy.colours.hair) * strands[:, None]
+    return Mesh(vertices, outwards(vertices, triangles), colour).welded()
+
+
+def _wave(angle: Array, t: float) -> Array:
+    """Return 0 in the grooves between locks, 1 on their backs."""
+    return np.abs(np.sin(angle * 9 + 0.9 * np.sin(t * 3 + angle * 2) - 0.5 * t))
 
 
 def _volume(normal: Array, t: float, angle: Array, fringe: Array) -> Array:
@@ -53,7 +58,7 @@ def _volume(normal: Array, t: float, angle: Array, fringe: Array) -> Array:
     temple = smoothstep(0.9, 1.5, angle) * smoothstep(0.55, 1, t)
     thick = 0.70 + 1.05 * fringe * smoothstep(0.15, 0.8, t) + 0.1 * np.cos(angle)
     thick = thick * mix(0.25, 1, edge * (2 - edge)) * (1 - 0.55 * temple)
-    wave = np.abs(np.sin(angle * 9 + 0.9 * np.sin(t * 3 + angle * 2) - 0.5 * t))
+    wave = _wave(angle, t)
     groove = 0.20 * (1 - wave) ** 2 * smoothstep(0.10, 0.45, t)
     swept = fringe * smoothstep(0.4, 0.95, t) * (1 - 0.6 * smoothstep(0.93, 1, t))
     offset: Array = (

@@ -22,6 +22,17 @@ class Mesh:
         """Return the same part on the other side of the face."""
         return Mesh(self.vertices * np.array([-1.0, 1, 1]), self.triangles[:, [0, 2, 1]], self.colours)
 
+    def welded(self, tolerance: float = 1e-9) -> "Mesh":
+        """Return the mesh with coincident vertices merged, as at poles, and empty triangles dropped."""
+        cells = np.round(self.vertices / tolerance).astype(np.int64)
+        _, first, inverse = np.unique(cells, axis=0, return_index=True, return_inverse=True)
+        kept = np.sort(first)
+        renamed = np.searchsorted(kept, first)[inverse.ravel()]
+        triangles = renamed[self.triangles]
+        a, b, c = triangles.T
+        whole = (a != b) & (b != c) & (c != a)
+        return Mesh(self.vertices[kept], triangles[whole], self.colours[kept])
+
 
 def face_normals(vertices: Array, triangles: Ints) -> Array:
     """Return (m, 3) normals of twice the area's length."""
@@ -52,12 +63,10 @@ def strip_triangles(grid: Ints, closed: bool = False) -> Ints:
     return kept
 
 
-def strips(rows: list[Array], closed: bool = False, smallest: float = 0.0) -> tuple[Array, Ints]:
-    """Return vertices and triangles of equally long rows of points; triangles of no area are left out."""
+def strips(rows: list[Array], closed: bool = False) -> tuple[Array, Ints]:
+    """Return vertices and triangles of equally long rows of points."""
     vertices = np.concatenate(rows)
-    triangles = strip_triangles(np.arange(len(vertices)).reshape(len(rows), -1), closed)
-    area = np.linalg.norm(face_normals(vertices, triangles), axis=1)
-    return vertices, triangles[area > smallest] if smallest else triangles
+    return vertices, strip_triangles(np.arange(len(vertices)).reshape(len(rows), -1), closed)
 
 
 def outwards(vertices: Array, triangles: Ints) -> Ints:

@@ -77,8 +77,8 @@ def tongue(front: float, height: float, colours: Colours) -> Mesh:
     rows: list[Array] = []
     for t in np.linspace(0, 1, sections):
         s = 2 * np.pi * np.arange(around) / around + np.pi / 2
-        width = 1.48 * _rounded(1.55 * t) * (1 - 0.05 * t) + 0.02
-        thick = 0.42 * _rounded(3.2 * t) * (1 + 0.35 * t) + 0.01
+        width = 1.48 * _rounded(1.55 * t + 0.01) * (1 - 0.05 * t) + 0.02
+        thick = 0.42 * _rounded(3.2 * t + 0.05) * (1 + 0.35 * t) + 0.01
         x, top = width * np.cos(s), np.maximum(np.sin(s), 0)
         y = thick * np.sin(s) - 0.16 * np.exp(-((x / 0.28) ** 2)) * top * smoothstep(0, 0.25, t)
         arch = 0.22 * np.sin(0.9 * np.pi * t) + 0.15 * (x / 1.4) ** 2

@@ -15,14 +15,14 @@ from generator.vectors import MIRROR, Array, columns, rotation, smoothstep, turn
 LASH_TURN = 0.70
 """Share of the margin's turn by which the lashes tilt as well."""
 LID_SHAPES = {
-    "eyeBlinkLeft": (0.69, 0.31, 1.0),
-    "eyeWideLeft": (-0.26, -0.14, 0.0),
-    "eyeSquintLeft": (0.20, 0.30, 0.0),
-    "browDownLeft": (0.10, 0.03, 0.0),
-    "cheekSquintLeft": (0.05, 0.13, 0.0),
-    "mouthSmileLeft": (0.03, 0.07, 0.0),
+    "eyeBlinkLeft": (0.69, 0.31, 1.0, 0.0),
+    "eyeWideLeft": (-0.26, -0.14, 0.0, 0.05),
+    "eyeSquintLeft": (0.20, 0.30, 0.0, 0.0),
+    "browDownLeft": (0.10, 0.03, 0.0, 0.0),
+    "cheekSquintLeft": (0.05, 0.13, 0.0, 0.0),
+    "mouthSmileLeft": (0.03, 0.07, 0.0, 0.0),
 }
-"""(upper, lower, blink) of `SkinDeformer.lids`."""
+"""(upper, lower, blink, lift) of `SkinDeformer.lids`."""
 GAZE = {
     "eyeLookDownLeft": ((1, 0, 0), 24, 0.36, -0.10, (0.0, 0.0)),
     "eyeLookUpLeft": ((1, 0, 0), -22, -0.19, 0.08, (0.0, 0.0)),
@@ -35,13 +35,14 @@ GAZE = {
 def lid_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:
     """Return the motion of the lids in LID_SHAPES and in the four directions of gaze."""
     shapes = {
-        name: _lid_shape(character, deformer, deformer.lids(upper, lower, blink))
-        for name, (upper, lower, blink) in LID_SHAPES.items()
+        name: _lid_shape(character, deformer, deformer.lids(upper, lower, blink, lift=lift))
+        for name, (upper, lower, blink, lift) in LID_SHAPES.items()
     }
     centre = np.array(character.anatomy.eye.centre)
     eye = character.place("eyeL")
     for name, (axis, degrees, upper, lower, shift) in GAZE.items():
-        shape = _lid_shape(character, deformer, deformer.lids(upper, lower, shift=shift))
+        lift = 0.03 if upper < 0 else 0.0
+        shape = _lid_shape(character, deformer, deformer.lids(upper, lower, shift=shift, lift=lift))
         shape.parts["eyeL"] = (eye - centre) @ rotation(axis, degrees).T + centre - eye
         shapes[name] = shape
     return shapes
@@ -81,8 +82,8 @@ def _brow(
     character: Character, deformer: SkinDeformer, motion: Callable[[Array], Array], both: bool = False
 ) -> Array:
     """Move the skin under the left brow by `motion` of the place along it (0 inner .. 1 outer end)."""
-    v = deformer.vertices
-    distance, nearest = cKDTree(character.place("browL")).query(v)
+    v = deformer.reference
+    distance, nearest = cKDTree(character.place("browL")).query(deformer.vertices)
     along = np.clip((nearest // AROUND) / (SECTIONS - 1), 0, 1)
     under = (distance < 0.33) & (deformer.eye_ring > 4) & (v[:, 0] > 0)
     handles = np.flatnonzero(under)

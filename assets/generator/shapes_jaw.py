@@ -10,7 +10,6 @@ from generator.skin import LIP_PROFILE
 from generator.topology import MOUTH_LOOP
 from generator.vectors import Array, Vector, columns, mix, rotation, smoothstep
 
-HINGE: Vector = (0, -1.3, -0.6)
 OPEN_ANGLE = 17.5
 TONGUE_OUT_OPENS = 0.36
 """How far tongueOut opens the jaw, so that the tongue clears the teeth."""
@@ -25,7 +24,7 @@ class Jaw:
 
     def moved(self, open_by: float = 0, shift: Vector = (0, 0, 0), yaw: float = 0) -> Shape:
         """Return the shape of a jaw opened by `open_by`, shifted, and turned sideways by `yaw` (degrees)."""
-        hinge = np.array(HINGE)
+        hinge = np.array(self._character.anatomy.skull.jaw_hinge)
         matrix = rotation((1, 0, 0), open_by) @ rotation((0, 1, 0), yaw)
 
         def motion(points: Array) -> Array:
@@ -84,7 +83,7 @@ def _close(deformer: SkinDeformer, opened: Array) -> Array:
         for k, t in enumerate(LIP_PROFILE):
             ring = deformer.lip_ring(k, right)
             moved[ring] = np.where(upper, meeting - of_upper, meeting - of_lower) * mix(1, 0.80, t)
-    v = deformer.vertices
+    v = deformer.reference
     handles = np.flatnonzero(deformer.lip)
     q = (v - np.array([0, -5.8, 5.5])) / np.array([5.6, 4.6, 6.5])
     still = ((q**2).sum(1) > 1) | (v[:, 1] > -2.2) | (v[:, 1] < -8.6) | deformer.inside

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from generator.anatomy import Colours
+from generator.anatomy import Colours, Skull
 from generator.meshes import Mesh, strips, vertex_normals
-from generator.vectors import MIRROR, repeated
+from generator.vectors import MIRROR, mix, repeated
 
 AROUND = 36
 ROWS = (
@@ -14,11 +14,13 @@ ROWS = (
 """(radius, height, how much it is shoulder) from the inside of the collar outwards."""
 
 
-def shirt(colours: Colours) -> Mesh:
-    """Return the shirt."""
+def shirt(skull: Skull, colours: Colours) -> Mesh:
+    """Return the shirt; its collar fits the neck."""
+    width = skull.neck.radii[0] / 2.95
     angle = 2 * np.pi * np.arange(AROUND) / AROUND
     rows = []
-    for radius, height, shoulder in ROWS:
+    for size, height, shoulder in ROWS:
+        radius = size * mix(width, 1, min(shoulder, 1))
         tilt = 0.55 * np.cos(angle) * (1 - 0.3 * shoulder) if shoulder < 0.9 else 0 * angle
         x = radius * np.sin(angle) * (1 + 0.22 * shoulder)
         rows.append(np.c_[x, height - tilt, -2.55 + radius * np.cos(angle) * (1.04 - 0.22 * shoulder)])

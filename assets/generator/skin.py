@@ -8,6 +8,7 @@ from scipy.interpolate import PchipInterpolator
 
 from generator.anatomy import Anatomy
 from generator.field import HeadField
+from generator.landmarks import FaceMap
 from generator.openings import LipCurves, lid_margin, lip_curves
 from generator.topology import (
     COLUMNS,
@@ -23,13 +24,17 @@ from generator.topology import (
     half_grid,
     triangulated,
 )
-from generator.vectors import MIRROR, Array, Ints, Mask, blob, mix, smoothstep, unit
+from generator.vectors import MIRROR, Array, Ints, Mask, blob, curve, mix, smoothstep, unit
 
 LIP_PROFILE = (0, 0.10, 0.28, 0.54, 0.80, 1)
 """Place of the lip rings between the contact line (0) and the border of the red (1)."""
 UPPER_FULLNESS = (-0.75, 0.46, 0.95, 1.0, 0.58, 0.06)
 LOWER_FULLNESS = (-0.70, 0.48, 0.96, 1.0, 0.60, 0.04)
 RELAXATIONS = 24
+CREASE = {4: 0.15, 5: -1.0, 6: 0.50, 7: 0.55, 8: 0.25}
+"""Height of the lid rings at the crease of the upper lid."""
+LIP_ROLL = {4: 0.6, 5: 1.0, 6: 0.72, 7: 0.40, 8: 0.15}
+"""How far the mouth rings come forward with a full lip."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +64,9 @@ def build_skin(field: HeadField) -> Skin:
     _place_mouth_rings(vertices, half, field, curves)
     middle = _middle(half)
     _relax(vertices, half, field, middle)
+    _fold_upper_lid(vertices, half, anatomy)
     _place_lips(vertices, half, field, curves)
+    _roll_lips(vertices, half, anatomy, curves)
     _place_bag(vertices, half, anatomy, curves)
     for ring in half.mouth_rings.values():
         vertices[ring[[0, -1]], 0] = 0
@@ -70,11 +77,36 @@ def build_skin(field: HeadField) -> Skin:
 def _place_grid(vertices: Array, half: HalfGrid, field: HeadField) -> None:
     """Cast one ray per grid vertex from the axis of the head."""
     i, j = half.places.T
-    azimuth = PchipInterpolator([0, 6, 11, 16, 22, COLUMNS], [0, 0.15, 0.43, 0.96, 1.42, np.pi])(j)
-    azimuth = mix(azimuth, np.pi * j / COLUMNS, smoothstep(MOUTH_ROWS[1] + 3, ROWS - 3, i))
-    rows = [0, 11, 17, 27, 39, 47, 53, 58, 62, 66, ROWS]
-    height = PchipInterpolator(rows, [5, 5, 2.45, -2.1, -4.35, -7.6, -8.2, -7.7, -9.0, -11.0, -14.9])(i)
-    pitch = np.radians(PchipInterpolator(rows, [90, 0, 0, 0, 0, 0, -14, -34, -46, -40, 0])(i))
+    skull, eye, mouth = field.anatomy.skull, field.anatomy.eye, field.anatomy.mouth
+    eye_x = np.arctan2(eye.centre[0], eye.centre[2] - skull.axis_z) / 0.57535
+    eye_y, chin_y = eye.centre[1], skull.chin.centre[1]
+    columns = (
+        (0, 0),
+        (6, 0.15 * eye_x),
+        (11, 0.43 * eye_x),
+        (16, 0.96 * eye_x),
+        (22, 1.42),
+        (COLUMNS, np.pi),
+    )
+    azimuth = curve(columns, j)
+    even = smoothstep(MOUTH_ROWS[1] + 3, ROWS - 3, i) + smoothstep(10, 0, i)
+    azimuth = mix(azimuth, np.pi * j / COLUMNS, even)
+    rows = np.array(
+        [
+            (0, 5, 90),
+            (11, 5, 0),
+            (17, eye_y + 1.195 * eye.radius, 0),
+            (27, eye_y - 1.024 * eye.radius, 0),
+            (39, mouth.height + 1.60, 0),
+            (47, mouth.height - 1.65, 0),
+            (53, chin_y + 0.05, -14),
+            (58, chin_y + 0.55, -34),
+            (62, chin_y - 0.75, -46),
+            (66, -11.0, -40),
+            (ROWS, -14.9, 0),
+        ]
+    )
+    height, pitch = curve(rows[:, :2], i), np.radians(curve(rows[:, ::2], i))
     origins = np.stack([0 * height, height, 0 * height + field.anatomy.skull.axis_z], 1)
     directions = np.stack(
         [np.cos(pitch) * np.sin(azimuth), np.sin(pitch), np.cos(pitch) * np.cos(azimuth)], 1
@@ -132,6 +164,7 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
     edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], 1), axis=0)
     centres = vertices[edges].mean(1)
     centres[:, 0] = np.abs(centres[:, 0])
+    centres = FaceMap(field.anatomy).to_reference(centres)
     pull = 1 + 4.0 * blob(centres, (0.55, -2.95, 7.6), (1.2, 1.0, 1.6))
     pull += 1.6 * blob(centres, (0, -9.3, 4.8), (2.8, 1.3, 2.8))
     both = np.r_[edges, edges[:, ::-1]]
@@ -143,10 +176,11 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
     free[half.grid[ROWS]] = free[0] = False
     for k in range(3, EYE_RINGS):
         free[half.eye_rings[k]] = True
-    for k in range(LIP_RINGS, MOUTH_RINGS):
+    for k in range(LIP_RINGS + 1, MOUTH_RINGS):
         free[half.mouth_rings[k]] = True
     moving = np.flatnonzero(free)
-    vertices[moving] = field.project(vertices[moving])
+    for start in (moving, half.mouth_rings[LIP_RINGS]):
+        vertices[start] = field.project(vertices[start])
     for round_ in range(RELAXATIONS):
         step = ((weights @ vertices) / total[:, None] - vertices)[moving]
         step[middle[moving], 0] = 0
@@ -155,6 +189,28 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
         vertices[moving] += 0.55 * step
         vertices[moving] = field.project(vertices[moving], 3 if round_ == RELAXATIONS - 1 else 1)
         vertices[middle, 0] = 0
+
+
+def _fold_upper_lid(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
+    """Press the crease into the upper lid and let the skin above it hang over a little."""
+    centre = np.array(anatomy.eye.centre)
+    count = EYE_LOOP // 2 + 1
+    share = 1 - np.abs(np.linspace(-1, 1, count)) ** 4
+    for k, height in CREASE.items():
+        ring = half.eye_rings[k][:count]
+        out = unit(vertices[ring] - centre)
+        vertices[ring] += out * (height * anatomy.eye.crease * share)[:, None]
+
+
+def _roll_lips(vertices: Array, half: HalfGrid, anatomy: Anatomy, curves: LipCurves) -> None:
+    """Bring the skin round the red forward, so that the lips grow out of the face instead of lying on it."""
+    mouth = anatomy.mouth
+    roll = np.where(
+        curves.upper, mouth.upper_fullness * mouth.upper_roll, mouth.lower_fullness * mouth.lower_roll
+    )
+    roll = roll * np.clip(curves.taper * 1.05 + 0.05, 0, 1)
+    for k, share in LIP_ROLL.items():
+        vertices[half.mouth_rings[k], 2] += share * roll
 
 
 def _place_lips(vertices: Array, half: HalfGrid, field: HeadField, curves: LipCurves) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from generator.vectors import Array, Ints
 
-ROWS, COLUMNS = 71, 44
+ROWS, COLUMNS = 71, 38
 EYE_COLUMNS, EYE_ROWS = (6, 16), (17, 27)
 MOUTH_COLUMNS, MOUTH_ROWS = 10, (39, 47)
 EYE_RINGS, EYE_LINING = 9, 3

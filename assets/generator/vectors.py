@@ -64,9 +64,9 @@ def turn(points: Array, axes: Array, angles: Array) -> Array:
     return result
 
 
-def curve(knots: Sequence[tuple[float, float]], x: ArrayLike) -> Array:
+def curve(knots: ArrayLike, x: ArrayLike) -> Array:
     """Return the monotone cubic through (x, y) knots at `x`."""
-    places, values = np.array(knots, float).T
+    places, values = np.asarray(knots, float).T
     result: Array = PchipInterpolator(places, values)(np.asarray(x, float))
     return result
 

@@ -1,0 +1,133 @@
+"""Measures a finished face: what an animator would reject, as numbers.
+
+Lengths are in centimetres, clearances positive where things do not touch.
+"""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from generator.assembly import FaceModel
+from generator.character import MATERIALS, swapped
+from generator.meshes import face_normals
+from generator.topology import EYE_LINING, EYE_LOOP, LIP_RINGS, MOUTH_BAG, MOUTH_LOOP
+from generator.vectors import MIRROR, Array, Ints, Mask
+
+BARYCENTRIC: Array = np.array(
+    [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0.5, 0), (0, 0.5, 0.5), (0.5, 0, 0.5), (1 / 3, 1 / 3, 1 / 3)]
+)
+"""Where triangles are probed: corners, edges, centre."""
+
+
+def asymmetry(model: FaceModel) -> tuple[float, float]:
+    """Return the largest mirror error of the neutral and of the shape pairs."""
+    mirror, names = model.character.mirror(), model.names
+    neutral = model.character.vertices
+    of_neutral = np.abs(neutral[mirror] * MIRROR - neutral).max()
+    of_shapes = max(
+        np.abs(model.deltas[names.index(swapped(name))][mirror] * MIRROR - model.deltas[k]).max()
+        for k, name in enumerate(names)
+        if swapped(name) in names
+    )
+    return float(of_neutral), float(of_shapes)
+
+
+def triangle_quality(vertices: Array, triangles: Ints) -> Array:
+    """Return (m,) 4 sqrt(3) area / (sum of squared edges): 1 equilateral, 0 without area."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    edges = ((a - b) ** 2).sum(1) + ((b - c) ** 2).sum(1) + ((c - a) ** 2).sum(1)
+    area = np.linalg.norm(face_normals(vertices, triangles), axis=1) / 2
+    result: Array = 4 * np.sqrt(3) * area / np.maximum(edges, 1e-12)
+    return result
+
+
+def visible_skin(model: FaceModel) -> Mask:
+    """Return (m,) which triangles are skin outside the mouth bag and the lining of the lids."""
+    skin = model.character.skin
+    hidden = [skin.both_sides(skin.mouth_rings[k]) for k in range(-MOUTH_BAG, 0)]
+    hidden += [skin.both_sides(skin.eye_rings[k]) for k in range(-EYE_LINING, 0)]
+    inner = np.concatenate([*hidden, [skin.bag_centre]])
+    triangles = model.character.triangles
+    on_skin: Mask = np.all(triangles < len(skin.vertices), axis=1)
+    hidden_corner: Mask = np.any(np.isin(triangles, inner), axis=1)
+    return on_skin & ~hidden_corner
+
+
+def flipped(model: FaceModel, posed: Array) -> int:
+    """Return how many visible skin triangles a pose turns by more than 100 degrees."""
+    triangles = model.character.triangles[visible_skin(model)]
+    before, after = face_normals(model.character.vertices, triangles), face_normals(posed, triangles)
+    cosine = (before * after).sum(1)
+    size = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
+    return int((cosine < -0.17 * size).sum())
+
+
+def lid_clearance(model: FaceModel, posed: Array) -> float:
+    """Return the smallest distance of the left lids from the eyeball; negative: it pokes through."""
+    character = model.character
+    centre = np.array(character.anatomy.eye.centre)
+    from_centre = posed[character.at("eyeL")] - centre
+    radius = np.linalg.norm(from_centre, axis=1)
+    lids = np.concatenate([character.skin.eye_rings[k] for k in range(8)])
+    triangles = character.triangles[np.isin(character.triangles, lids).all(1)]
+    probes = np.einsum("wk,tkc->twc", BARYCENTRIC, posed[triangles]).reshape(-1, 3) - centre
+    distance = np.linalg.norm(probes, axis=1)
+    _, nearest = cKDTree(from_centre / radius[:, None]).query(probes / distance[:, None])
+    return float((distance - radius[nearest]).min())
+
+
+def lid_gap(model: FaceModel, posed: Array) -> float:
+    """Return the largest distance between the margins of the left upper and lower lid."""
+    margin = posed[model.character.skin.eye_rings[0]]
+    opposite = margin[(EYE_LOOP - np.arange(EYE_LOOP)) % EYE_LOOP]
+    return float(np.linalg.norm(margin - opposite, axis=1).max())
+
+
+def lip_gap(model: FaceModel, posed: Array) -> tuple[float, float]:
+    """Return the smallest and largest height of upper over lower contact line; negative: they cross."""
+    skin = model.character.skin
+    gaps = []
+    for ring in (skin.mouth_rings[0], skin.mirror[skin.mouth_rings[0]]):
+        height = posed[ring, 1]
+        gaps.append((height - height[::-1])[: MOUTH_LOOP // 2])
+    gap = np.concatenate(gaps)
+    return float(gap.min()), float(gap.max())
+
+
+def uncovered(model: FaceModel, posed: Array) -> float:
+    """Return how far teeth, gums and tongue stand out of the skin that covers them (negative: behind it)."""
+    character = model.character
+    inside = np.concatenate([character.at(part) for part in ("teethUpper", "teethLower", "gums", "tongue")])
+    skin = character.skin
+    outer = [skin.both_sides(skin.mouth_rings[k]) for k in range(1, LIP_RINGS + 4)]
+    triangles = character.triangles[np.isin(character.triangles, np.concatenate(outer)).all(1)]
+    points, corners = posed[inside], posed[triangles]
+    worst = -np.inf
+    for k in range(0, len(points), 100):
+        worst = max(worst, _depth_over(points[k : k + 100], corners))
+    return float(worst)
+
+
+def _depth_over(points: Array, corners: Array) -> float:
+    """Return the largest z of points above the frontmost triangle that covers them in x and y."""
+    a, b, c = (corners[None, :, k] for k in range(3))
+    p = points[:, None]
+    twice = (b - a)[..., 0] * (c - a)[..., 1] - (c - a)[..., 0] * (b - a)[..., 1]
+    twice = np.where(np.abs(twice) < 1e-9, np.nan, twice)
+    u = ((p - a)[..., 0] * (c - a)[..., 1] - (c - a)[..., 0] * (p - a)[..., 1]) / twice
+    v = ((b - a)[..., 0] * (p - a)[..., 1] - (p - a)[..., 0] * (b - a)[..., 1]) / twice
+    inside = (u >= 0) & (v >= 0) & (u + v <= 1)
+    depth = np.where(inside, a[..., 2] + u * (b - a)[..., 2] + v * (c - a)[..., 2], -np.inf).max(1)
+    covered = np.isfinite(depth)
+    return float((points[covered, 2] - depth[covered]).max(initial=-np.inf))
+
+
+def moved_share(model: FaceModel, shape: int) -> float:
+    """Return the share of vertices that a shape moves by more than 0.1 millimetres."""
+    return float((np.linalg.norm(model.deltas[shape], axis=1) > 0.01).mean())
+
+
+def part_triangles(model: FaceModel, part: str) -> Ints:
+    """Return the (m, 3) triangles of a part."""
+    first = model.character.part[model.character.triangles[:, 0]]
+    triangles: Ints = model.character.triangles[first == list(MATERIALS).index(part)]
+    return triangles

@@ -55,13 +55,18 @@ class Canvas:
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        # moderngl returns to the framebuffer in use after it made a new one; it must not be a deleted one.
-        self.ctx.detect_framebuffer(0).use()
         for framebuffer in (self._drawn, self._resolved):
             if framebuffer is not None:
-                attachments = [*framebuffer.color_attachments, framebuffer.depth_attachment]
-                framebuffer.release()
-                for attachment in attachments:
-                    if attachment is not None:
-                        attachment.release()
+                release_framebuffer(framebuffer)
         self._drawn = self._resolved = None
+
+
+def release_framebuffer(framebuffer: moderngl.Framebuffer) -> None:
+    """Give back a framebuffer with all that is attached to it."""
+    # moderngl returns to the framebuffer in use after it made a new one; it must not be a deleted one.
+    framebuffer.ctx.detect_framebuffer(0).use()
+    attachments = [*framebuffer.color_attachments, framebuffer.depth_attachment]
+    framebuffer.release()
+    for attachment in attachments:
+        if attachment is not None:
+            attachment.release()

@@ -4,7 +4,7 @@ Ambient occlusion, baked once per rig from depth maps seen from all around.  It 
 time, so that the first picture does not wait for it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Generator
 
 import moderngl
 import numpy as np
@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 from facepin.core.arrays import Floats, Indices, Points
 from facepin.core.rig import Rig
 from facepin.core.topology import DrawOrder
+from facepin.gpu.canvas import release_framebuffer
 from facepin.gpu.framing import column_major
 from facepin.gpu.materials import Run
 from facepin.gpu.programs import load_program
@@ -42,67 +43,93 @@ class Openness:
         """Prepare for what is drawn: `runs` of the triangles of `order`, which are in `indices`."""
         self.values: Points = np.ones(rig.vertex_count, np.float32)
         """(n,) share of the light that arrives; 1 until all is done."""
-        self._steps = self._bake(ctx, rig, runs, indices, outer_sides(rig, order, runs))
+        self._steps = self._bake(ctx, rig, order, runs, indices)
 
     def step(self, count: int) -> bool:
         """Look from `count` more directions; return True as long as there are more."""
         return all(next(self._steps, None) is not None for _ in range(count))
 
+    def release(self) -> None:
+        """Stop, done or not, and give the graphics memory back."""
+        self._steps.close()
+
     def _bake(
         self,
         ctx: moderngl.Context,
         rig: Rig,
+        order: DrawOrder,
         runs: tuple[Run, ...],
         indices: moderngl.Buffer,
-        sides: NDArray[np.int8],
-    ) -> Iterator[int]:
-        program = load_program(ctx, "depth")
-        depth = ctx.depth_texture((RESOLUTION, RESOLUTION))
-        framebuffer = ctx.framebuffer(depth_attachment=depth)
-        buffer = ctx.buffer(reserve=12 * rig.vertex_count)
-        mesh = ctx.vertex_array(program, [(buffer, "3f", "position")], indices)
-        arrived = []
-        for positions in (rig.neutral, opened(rig)):
-            buffer.write(np.ascontiguousarray(positions, np.float32))
-            middle = (positions.min(axis=0) + positions.max(axis=0)) / 2
-            radius = 1.01 * max(float(np.linalg.norm(positions - middle, axis=1).max()), 1e-30)
-            points = (positions - middle) / np.float32(radius)
-            normals = (
-                vertex_normals(positions, rig.triangles)
-                * np.where(sides < 0, -1, 1).astype(np.float32)[:, None]
-            )
-            # In front of the surface and behind it.
-            light = np.zeros((2, rig.vertex_count), np.float32)
-            total = np.full((2, rig.vertex_count), 1e-6, np.float32)
-            for step, direction in enumerate(directions(DIRECTIONS)):
-                axes = _axes(direction)
-                matrix = np.eye(4)
-                matrix[:3, :3] = axes / radius
-                matrix[:3, 3] = -matrix[:3, :3] @ middle
-                program["to_clip"] = column_major(matrix)
-                framebuffer.use()
-                framebuffer.clear(depth=1.0)
-                ctx.enable_only(moderngl.DEPTH_TEST)
-                ctx.depth_func = "<"
-                for run in runs:
-                    mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
-                nearest = np.frombuffer(depth.read(alignment=4), np.float32).reshape(RESOLUTION, RESOLUTION)
-                facing = normals @ direction.astype(np.float32)
-                lift = np.where(facing < 0, -LIFT, LIFT).astype(np.float32)
-                x, y, z = axes.astype(np.float32) @ (points + lift[:, None] * normals).T
-                column, row = (
-                    np.clip(((c + 1) * (RESOLUTION / 2)).astype(np.intp), 0, RESOLUTION - 1) for c in (x, y)
-                )
-                seen = nearest[row, column] * 2 - 1 > z - LIFT / 2
-                weight = np.maximum([facing, -facing], 0)
-                light += weight * seen
-                total += weight
-                yield step
-            front, back = light / total
-            arrived.append(np.where(sides == 0, np.maximum(front, back), front))
-        for item in (mesh, buffer, framebuffer, depth, program):
-            item.release()
+    ) -> Generator[int]:
+        sides = outer_sides(rig, order, runs)
+        maps = _DepthMaps(ctx, rig.vertex_count, runs, indices)
+        try:
+            arrived = []
+            for positions in (rig.neutral, opened(rig)):
+                # In front of the surface and behind it.
+                light = np.zeros((2, rig.vertex_count), np.float32)
+                total = np.full((2, rig.vertex_count), 1e-6, np.float32)
+                normals = vertex_normals(positions, rig.triangles)
+                maps.take(positions)
+                for step, direction in enumerate(directions(DIRECTIONS)):
+                    facing = normals @ direction.astype(np.float32)
+                    lift = np.where(facing < 0, -LIFT, LIFT).astype(np.float32)
+                    weight = np.maximum([facing, -facing], 0)
+                    light += weight * maps.seen_from(direction, lift[:, None] * normals)
+                    total += weight
+                    yield step
+                front, back = light / total
+                arrived.append(np.where(sides > 0, front, np.where(sides < 0, back, np.maximum(front, back))))
+        finally:
+            maps.release()
         self.values = smoothed(np.maximum(arrived[0], OPENED_SHARE * np.sqrt(arrived[1])), rig)
+
+
+class _DepthMaps:
+    """Depth maps of a face from far away, one at a time."""
+
+    def __init__(
+        self, ctx: moderngl.Context, vertices: int, runs: tuple[Run, ...], indices: moderngl.Buffer
+    ) -> None:
+        self._ctx = ctx
+        self._runs = runs
+        self._program = load_program(ctx, "depth")
+        self._depth = ctx.depth_texture((RESOLUTION, RESOLUTION))
+        self._framebuffer = ctx.framebuffer(depth_attachment=self._depth)
+        self._buffer = ctx.buffer(reserve=12 * vertices)
+        self._mesh = ctx.vertex_array(self._program, [(self._buffer, "3f", "position")], indices)
+
+    def take(self, positions: Points) -> None:
+        """Look at another pose, scaled to a ball of radius 1."""
+        middle = (positions.min(axis=0) + positions.max(axis=0)) / 2
+        points = positions - middle
+        radius = 1.01 * float(np.linalg.norm(points, axis=1).max())
+        self._points = (points / np.float32(radius or 1.0)).astype(np.float32)
+        self._buffer.write(np.ascontiguousarray(self._points))
+
+    def seen_from(self, direction: Floats, lift: Points) -> NDArray[np.bool_]:
+        """Say of every vertex, moved by `lift` (n, 3), whether nothing hides it from `direction`."""
+        axes = _axes(direction)
+        matrix = np.eye(4)
+        matrix[:3, :3] = axes
+        self._program["to_clip"] = column_major(matrix)
+        self._framebuffer.use()
+        self._framebuffer.clear(depth=1.0)
+        self._ctx.enable_only(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
+        for run in self._runs:
+            self._mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
+        nearest = np.frombuffer(self._depth.read(), np.float32).reshape(RESOLUTION, RESOLUTION)
+        x, y, z = axes.astype(np.float32) @ (self._points + lift).T
+        cells = [np.clip(((c + 1) * (RESOLUTION / 2)).astype(np.intp), 0, RESOLUTION - 1) for c in (y, x)]
+        seen: NDArray[np.bool_] = nearest[tuple(cells)] * 2 - 1 > z - LIFT / 2
+        return seen
+
+    def release(self) -> None:
+        """Give the graphics memory back."""
+        release_framebuffer(self._framebuffer)
+        for item in (self._mesh, self._buffer, self._program):
+            item.release()
 
 
 def outer_sides(rig: Rig, order: DrawOrder, runs: tuple[Run, ...]) -> NDArray[np.int8]:

@@ -58,6 +58,8 @@ class Scene:
 
     def release(self) -> None:
         """Give the graphics memory back."""
+        if self._openness is not None:
+            self._openness.release()
         for item in (self.indices, self.albedo, self.fine_program, self.fast_program, self.background):
             item.release()
 

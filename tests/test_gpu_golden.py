@@ -1,0 +1,73 @@
+"""Two pictures that people have looked at and liked; `pytest --regenerate` stores them anew."""
+
+from pathlib import Path
+
+import moderngl
+import numpy as np
+import pytest
+from PIL import Image
+
+from facepin.core.camera import Camera, Viewport, frame_points
+from facepin.core.normals import NormalField
+from facepin.core.rig import Rig
+from facepin.files import open_rig
+from facepin.gpu.canvas import Canvas
+from facepin.gpu.markers import MarkerLayer, Markers
+from facepin.gpu.picture import png_bytes, render_picture
+from facepin.gpu.scene import PaneMesh, Scene
+from facepin.resources import resource
+
+GOLDEN = Path(__file__).parent / "golden"
+SIZE = 256
+
+
+@pytest.fixture(scope="module")
+def ada() -> Rig:
+    return open_rig(resource("assets", "faces/ada.npz"))
+
+
+def check(name: str, image: np.ndarray, gl: moderngl.Context, request: pytest.FixtureRequest) -> None:
+    """Compare with the stored picture, on the software renderer only: others round differently."""
+    path = GOLDEN / f"{name}.png"
+    if request.config.getoption("--regenerate"):
+        GOLDEN.mkdir(exist_ok=True)
+        path.write_bytes(png_bytes(image))
+    if not gl.info["GL_RENDERER"].startswith("llvmpipe"):
+        pytest.skip(f"golden pictures are compared on llvmpipe, this is {gl.info['GL_RENDERER']}")
+    golden = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    difference = np.abs(image[..., :3].astype(int) - golden)
+    if difference.mean() > 0.5 or np.mean(difference.max(axis=2) > 16) > 0.01:
+        folder = request.getfixturevalue("tmp_path")
+        beside = np.concatenate([golden, image[..., :3], np.minimum(8 * difference, 255)], axis=1)
+        (folder / f"{name}.png").write_bytes(png_bytes(beside.astype(np.uint8)))
+        pytest.fail(f"{name} looks different (golden, now, difference x8): {folder / name}.png")
+
+
+def test_front(gl: moderngl.Context, ada: Rig, request: pytest.FixtureRequest) -> None:
+    camera = frame_points(ada.neutral, 1.0)
+    normals = NormalField(ada).normals(ada.neutral)
+    check("front", render_picture(gl, ada, ada.neutral, normals, camera, (SIZE, SIZE)), gl, request)
+
+
+def test_smile_with_pins(gl: moderngl.Context, ada: Rig, request: pytest.FixtureRequest) -> None:
+    smile = ("mouthSmileLeft", "mouthSmileRight", "jawOpen")
+    positions = ada.evaluate(np.array([0.6 * (name in smile) for name in ada.shape_names]))
+    camera = frame_points(ada.neutral, 1.0, Camera(radius=0.0).looking("three-quarter")).zoomed(1.6)
+    scene, canvas, layer = Scene(gl, ada), Canvas(gl, 4), MarkerLayer(gl)
+    mesh = PaneMesh(scene)
+    mesh.upload(positions, NormalField(ada).normals(positions))
+    canvas.resize(SIZE, SIZE)
+    view = Viewport(0, 0, SIZE, SIZE)
+    mesh.draw(canvas.framebuffer, view, camera)
+    # The four vertices that smile and jaw move most, well apart; one on its goal, one seen through the face.
+    front = np.flatnonzero(ada.neutral[:, 2] > 0)
+    places = np.array([[3, -5, 5], [-3, -5, 5], [0, -9, 6], [-5, 2, 2]])
+    vertices = [front[np.argmin(np.linalg.norm(ada.neutral[front] - place, axis=1))] for place in places]
+    goals = positions[vertices] + np.array([[1.5, 1.5, 0], [-1, 2, 0], [0, -2, 1], [0, 0, 0]], np.float32)
+    layer.draw(
+        canvas.framebuffer, view, camera, Markers(positions[vertices], goals, np.arange(4, dtype=np.uint8))
+    )
+    image = canvas.read().copy()
+    for item in (layer, canvas, mesh, scene):
+        item.release()
+    check("smile", image, gl, request)

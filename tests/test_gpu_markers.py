@@ -1,0 +1,129 @@
+"""Pins are where the camera says, seen through the face, and as large as asked for."""
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from facepin.gpu.markers import STYLES, MarkerLayer, Markers, MarkerState
+from gpu_help import SIZE, WHOLE, ball, camera, drawn
+
+FRONT, BACK = (0.3, 0.2, 0.92), (0.3, 0.2, -0.92)
+
+
+def markers(positions: ArrayLike, goals: ArrayLike | None = None, states: ArrayLike | None = None) -> Markers:
+    positions = np.asarray(positions, np.float32).reshape(-1, 3)
+    goals = positions if goals is None else np.asarray(goals, np.float32).reshape(-1, 3)
+    return Markers(positions, goals, np.asarray([0] * len(positions) if states is None else states, np.uint8))
+
+
+def change(gl: moderngl.Context, pins: Markers, scale: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """Picture with pins, and how far each pixel is from the picture without."""
+    rig = ball()
+    layer = MarkerLayer(gl)
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        before = canvas.read().astype(int)
+        layer.draw(canvas.framebuffer, WHOLE, camera(rig), pins, scale=scale)
+        after = canvas.read().astype(int)
+    layer.release()
+    assert (after[..., 3] == 255).all()
+    return after, np.abs(after - before).max(axis=2)
+
+
+def pixel_of(point: ArrayLike) -> tuple[float, float]:
+    x, y, _ = camera(ball()).project(point, WHOLE)[0]
+    return x, y
+
+
+def middle(changed: np.ndarray) -> np.ndarray:
+    y, x = np.nonzero(changed > 8)
+    return np.array([x.mean() + 0.5, y.mean() + 0.5])
+
+
+@pytest.mark.parametrize("point", [FRONT, (0, 0, 1), (-0.5, -0.6, 0.62)])
+def test_a_marker_is_where_its_vertex_is_seen(
+    gl: moderngl.Context, point: tuple[float, float, float]
+) -> None:
+    picture, changed = change(gl, markers(point))
+    np.testing.assert_allclose(middle(changed), pixel_of(point), atol=0.6)
+    x, y = pixel_of(point)
+    ring = picture[int(y), int(x + 0.7 * STYLES[MarkerState.NORMAL].radius)]
+    np.testing.assert_allclose(ring[:3] / 255, STYLES[MarkerState.NORMAL].colour, atol=0.02)
+
+
+def test_size_is_in_points(gl: moderngl.Context) -> None:
+    small = (change(gl, markers(FRONT))[1] > 60).sum()
+    large = (change(gl, markers(FRONT), scale=2.0)[1] > 60).sum()
+    assert 3.3 < large / small < 4.7
+
+
+def test_states_look_different(gl: moderngl.Context) -> None:
+    x, y = pixel_of(FRONT)
+    seen = {tuple(change(gl, markers(FRONT, states=[s]))[0][int(y), int(x) + 4]) for s in MarkerState}
+    assert len(seen) >= 3
+    areas = [(change(gl, markers(FRONT, states=[s]))[1] > 8).sum() for s in MarkerState]
+    assert areas[MarkerState.HELD] > areas[MarkerState.SELECTED] > areas[MarkerState.NORMAL]
+
+
+def test_a_hidden_marker_is_dimmed(gl: moderngl.Context) -> None:
+    shown, hidden = change(gl, markers(FRONT))[1], change(gl, markers(BACK))[1]
+    assert hidden.max() > 15
+    assert hidden.max() < 0.6 * shown.max()
+    np.testing.assert_allclose(middle(hidden), pixel_of(BACK), atol=0.6)
+
+
+def test_a_line_leads_to_the_goal(gl: moderngl.Context) -> None:
+    goal = (-0.5, 0.5, 0.9)
+    _, changed = change(gl, markers(FRONT, goal))
+    start, end = np.array(pixel_of(FRONT)), np.array(pixel_of(goal))
+    for share in np.linspace(0, 1, 12):
+        x, y = (start + share * (end - start)).astype(int)
+        assert changed[y - 1 : y + 2, x - 1 : x + 2].max() > 60
+    along = (end - start) / np.linalg.norm(end - start)
+    y, x = np.nonzero(changed > 60)
+    across = (np.stack([x, y], axis=1) + 0.5 - start) @ (-along[1], along[0])
+    assert np.abs(across).max() < STYLES[MarkerState.NORMAL].radius + 3
+
+
+def test_on_its_goal_a_pin_is_a_disc_only(gl: moderngl.Context) -> None:
+    alone = change(gl, markers(FRONT))[0]
+    np.testing.assert_array_equal(change(gl, markers(FRONT, np.add(FRONT, 1e-5)))[0], alone)
+
+
+def test_the_held_pin_is_on_top(gl: moderngl.Context) -> None:
+    held = change(gl, markers(FRONT, states=[3]))[0]
+    for states in ([3, 0], [0, 3]):
+        both = change(gl, markers([FRONT, FRONT], states=states))[0]
+        x, y = pixel_of(FRONT)
+        np.testing.assert_array_equal(both[int(y), int(x) + 4], held[int(y), int(x) + 4])
+
+
+def test_strange_places_draw_nothing_wrong(gl: moderngl.Context) -> None:
+    rig = ball()
+    behind = camera(rig).eye * 2
+    assert change(gl, markers(behind))[1].max() == 0
+    _, changed = change(gl, markers(FRONT, behind))
+    x, y = pixel_of(FRONT)
+    assert changed[int(y), int(x)] > 60
+    assert change(gl, markers(np.zeros((0, 3))))[1].max() == 0
+
+
+def test_many_markers_need_no_preparation(gl: moderngl.Context) -> None:
+    points = np.random.default_rng(1).normal(size=(100, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    _, changed = change(gl, markers(points))
+    for x, y, _ in camera(ball()).project(points[points[:, 2] > 0.5], WHOLE):
+        assert changed[int(np.clip(y, 0, SIZE - 1)), int(np.clip(x, 0, SIZE - 1))] > 20
+
+
+def test_depth_can_be_written_again_afterwards(gl: moderngl.Context) -> None:
+    rig = ball()
+    layer = MarkerLayer(gl)
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        expected = canvas.read().copy()
+        layer.draw(canvas.framebuffer, WHOLE, camera(rig), markers(FRONT))
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        np.testing.assert_array_equal(canvas.read(), expected)
+    layer.release()

@@ -1,0 +1,137 @@
+"""A face on the graphics card: what is sent, where it is drawn, and that it always looks the same."""
+
+import moderngl
+import numpy as np
+import pytest
+
+from facepin.core.camera import Viewport
+from facepin.gpu.canvas import Canvas
+from facepin.gpu.scene import PaneMesh, Scene
+from gpu_help import SIZE, WHOLE, ball, ball_normals, camera, drawn
+
+
+def test_the_same_arrays_are_sent_once(gl: moderngl.Context) -> None:
+    rig = ball()
+    scene = Scene(gl, rig)
+    mesh = PaneMesh(scene)
+    positions, normals = rig.neutral, rig.neutral.copy()
+    assert mesh.upload(positions, normals)
+    assert not mesh.upload(positions, normals)
+    assert mesh.upload(positions.copy(), normals)
+    mesh.release()
+    scene.release()
+
+
+def test_a_ball_covers_what_the_camera_says(gl: moderngl.Context) -> None:
+    rig = ball(48)
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig), background=False)
+        alpha = canvas.read()[..., 3]
+    eye = camera(rig)
+    # A sphere's outline is the cone that touches it.
+    edge = np.tan(np.arcsin(1 / eye.distance)) / np.tan(eye.fov_y / 2) * SIZE / 2
+    y, x = np.mgrid[:SIZE, :SIZE] + 0.5 - SIZE / 2
+    away = np.hypot(x, y)
+    assert (alpha[away < edge - 1] == 255).all()
+    assert (alpha[away > edge + 1] == 0).all()
+
+
+def test_it_stays_in_its_rectangle(gl: moderngl.Context) -> None:
+    rig = ball()
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        canvas.framebuffer.clear(1, 0, 1, 1)
+        mesh.draw(canvas.framebuffer, Viewport(16, 8, 64, 40), camera(rig))
+        picture = canvas.read()
+    inside = np.zeros((SIZE, SIZE), bool)
+    inside[8:48, 16:80] = True
+    assert (picture[~inside] == (255, 0, 255, 255)).all()
+    assert not (picture[inside] == (255, 0, 255, 255)).all(axis=1).any()
+
+
+def test_two_panes_show_their_own_poses(gl: moderngl.Context) -> None:
+    rig = ball()
+    stretched = rig.evaluate(np.ones(1))
+    left, right = Viewport(0, 0, SIZE / 2, SIZE), Viewport(SIZE / 2, 0, SIZE / 2, SIZE)
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        other = PaneMesh(mesh.scene)
+        other.upload(stretched, rig.neutral)
+        for pane, place in ((mesh, left), (other, right)):
+            pane.draw(canvas.framebuffer, place, camera(rig), background=False)
+        alpha = canvas.read()[..., 3]
+        other.release()
+    halves = alpha[:, : SIZE // 2], alpha[:, SIZE // 2 :]
+    assert [half[0].any() for half in halves] == [False, True], "only the stretched one reaches the top"
+    np.testing.assert_array_equal(halves[0][SIZE // 2 :], halves[1][SIZE // 2 :])
+
+
+def test_drawing_does_not_depend_on_the_state_left_by_others(gl: moderngl.Context) -> None:
+    rig = ball()
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        expected = canvas.read().copy()
+        gl.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
+        gl.blend_func = moderngl.ONE, moderngl.ONE
+        gl.cull_face, gl.front_face, gl.depth_func = "front", "cw", ">"
+        canvas.framebuffer.scissor = (3, 3, 5, 5)
+        canvas.framebuffer.viewport = (1, 1, 20, 20)
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        np.testing.assert_array_equal(canvas.read(), expected)
+
+
+def test_an_inside_out_file_looks_like_any_other(gl: moderngl.Context) -> None:
+    pictures = []
+    for inside_out in (False, True):
+        rig = ball(inside_out=inside_out)
+        for fine in (False, True):
+            with drawn(gl, rig, ball_normals(rig, inside_out=inside_out)) as (mesh, canvas):
+                assert [run.hidden for run in mesh.scene.runs] == ["front" if inside_out else "back"]
+                mesh.draw(canvas.framebuffer, WHOLE, camera(rig), fine=fine)
+                pictures.append(canvas.read().astype(int))
+    assert np.abs(pictures[2] - pictures[0]).mean() < 0.2
+    assert np.abs(pictures[3] - pictures[1]).mean() < 0.2
+
+
+def test_light_at_vertices_looks_like_light_at_pixels(gl: moderngl.Context) -> None:
+    rig = ball(64)
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        pictures = []
+        for fine in (False, True):
+            mesh.draw(canvas.framebuffer, WHOLE, camera(rig), fine=fine)
+            pictures.append(canvas.read().astype(int))
+    assert np.abs(pictures[0] - pictures[1]).max() <= 6
+
+
+def test_light_comes_from_the_upper_left(gl: moderngl.Context) -> None:
+    rig = ball(48)
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        grey = canvas.read()[..., :3].mean(axis=2)
+    upper_left, lower_right = grey[40:50, 40:50].mean(), grey[80:90, 80:90].mean()
+    assert upper_left > 1.4 * lower_right
+    assert 120 < upper_left < 235, "bright, and nothing burnt out"
+
+
+def test_a_canvas_smooths_edges_and_copies_all_of_itself(gl: moderngl.Context) -> None:
+    rig = ball()
+    plain = Canvas(gl, 0)
+    plain.resize(SIZE, SIZE)
+    with drawn(gl, rig, rig.neutral, samples=4) as (mesh, canvas):
+        mesh.draw(canvas.framebuffer, WHOLE, camera(rig), background=False)
+        smooth = canvas.read().copy()
+        canvas.resolve(plain.framebuffer)
+        np.testing.assert_array_equal(plain.read(), smooth)
+    plain.release()
+    if canvas.samples:
+        assert ((smooth[..., 3] > 0) & (smooth[..., 3] < 255)).sum() > SIZE
+
+
+def test_a_canvas_can_be_resized_again_and_again(gl: moderngl.Context) -> None:
+    canvas = Canvas(gl, 4)
+    with pytest.raises(RuntimeError, match="size"):
+        _ = canvas.framebuffer
+    for width, height in ((10, 20), (0, 7), (10, 20)):
+        canvas.resize(width, height)
+        canvas.framebuffer.clear(1.0)
+        assert canvas.read().shape == (max(height, 1), max(width, 1), 4)
+    canvas.release()
+    canvas.release()

@@ -95,7 +95,7 @@ class Window:
                 glfw.terminate()
                 raise FacepinError(f"no window with OpenGL 3.3 could be opened ({complaints})")
         glfw.make_context_current(self._handle)
-        self.ctx = moderngl.create_context(**{"context": _Loader()})
+        self.ctx = moderngl.create_context(context=_Loader())  # type: ignore[arg-type]  # its stub wants a dict
         glfw.swap_interval(0 if windowless else 1)
         self._forced_scale = scale
         # Where the last event left the mouse.  Asking for it in a callback would tell where the mouse is by now:
@@ -248,7 +248,7 @@ class Window:
     def _on_drop(self, _: object, paths: list[str]) -> None:
         self._events.append(FilesDropped(tuple(Path(path) for path in paths)))
 
-    def _on_close(self, handle: object) -> None:
+    def _on_close(self, handle: Any) -> None:
         # Whether the window really closes is decided by who reads the event.
         glfw.set_window_should_close(handle, False)
         self._events.append(CloseRequested())
@@ -283,7 +283,7 @@ class _Complaints:
 
     def __str__(self) -> str:
         _, text = glfw.get_error()
-        return text.decode(errors="replace") if text else "glfw gives no reason"
+        return str(text.decode(errors="replace")) if text else "glfw gives no reason"
 
 
 def _create(title: str, size: tuple[int, int], windowless: bool) -> Any:

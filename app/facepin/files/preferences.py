@@ -4,10 +4,14 @@ import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from facepin.core.errors import FacepinError
+from facepin.core.pose import Freedom
 from facepin.files.atomic import atomic_write
+
+Quality = Literal["auto", "always", "off"]
+"""When edges are drawn smooth."""
 
 RECENT = 10
 """How many rigs are remembered."""
@@ -19,8 +23,8 @@ class Preferences:
 
     recent: tuple[str, ...] = ()
     """Rigs opened lately, newest first, absolute paths."""
-    freedom: str = "space"
-    quality: str = "auto"
+    freedom: Freedom = "space"
+    quality: Quality = "auto"
     ui_scale: float = 1.0
     solver: str = "transpose"
 

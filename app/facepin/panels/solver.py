@@ -31,7 +31,10 @@ def solver_panel(
     imgui.spacing()
     for field in dataclasses.fields(choice.settings):
         value = getattr(choice.settings, field.name)
+        when = field.metadata["when"]
+        imgui.begin_disabled(when is not None and getattr(choice.settings, when[0]) != when[1])
         changed, value = _setting(field.name, field.metadata, value)
+        imgui.end_disabled()
         if changed:
             settings = dataclasses.replace(choice.settings, **{field.name: value})
             request = UseSolver(pane, dataclasses.replace(choice, settings=settings))
@@ -55,23 +58,24 @@ def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any
     """Draw one setting by its declared type and range; return (changed, value)."""
     title = name.replace("_", " ")
     imgui.set_next_item_width(imgui.get_content_region_avail().x * 0.5)
+    changed: bool
+    new: Any
     if isinstance(value, bool):
-        result = imgui.checkbox(title, value)
+        changed, new = imgui.checkbox(title, value)
     elif about["choices"]:
         words = list(about["choices"])
         changed, at = imgui.combo(title, words.index(value), words)
-        result = changed, words[at]
+        new = words[at]
     elif isinstance(value, int):
-        result = imgui.slider_int(title, value, int(about["low"]), int(about["high"]))
+        changed, new = imgui.slider_int(title, value, int(about["low"]), int(about["high"]))
     else:
         flags = imgui.SliderFlags_.always_clamp
         if about["log"]:
             flags |= imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.no_round_to_format
         shown = "%.4g" if about["log"] else "%.3f"
-        result = imgui.slider_float(title, value, about["low"], about["high"], shown, flags)
+        changed, new = imgui.slider_float(title, value, about["low"], about["high"], shown, flags)
     imgui.set_item_tooltip(about["help"])
-    changed, value = result
-    return changed, value
+    return changed, new
 
 
 def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:

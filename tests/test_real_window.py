@@ -1,0 +1,111 @@
+"""The program in a real X window, driven by a real mouse."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module")
+def screen() -> Iterator[str]:
+    """A display of our own: the one CI names, or an Xvfb started here."""
+    named = os.environ.get("FACEPIN_SCREEN")
+    if named:
+        yield named
+        return
+    if not (shutil.which("Xvfb") and shutil.which("xdotool")):
+        pytest.skip("Xvfb and xdotool are needed to try the real window")
+    server = subprocess.Popen(
+        ["Xvfb", ":93", "-screen", "0", "1920x1080x24", "-nolisten", "tcp"], stderr=subprocess.DEVNULL
+    )
+    time.sleep(1)
+    yield ":93"
+    server.terminate()
+    server.wait()
+
+
+class Hand:
+    """A mouse and a keyboard."""
+
+    def __init__(self, screen: str) -> None:
+        self.environment = {**os.environ, "DISPLAY": screen}
+
+    def do(self, *words: object) -> str:
+        command = ["xdotool", *map(str, words)]
+        done = subprocess.run(command, env=self.environment, capture_output=True, text=True, check=False)
+        return done.stdout.strip()
+
+
+def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> None:
+    hand = Hand(screen)
+    home = tmp_path / "home"
+    home.mkdir()
+    environment = {
+        **hand.environment,
+        "HOME": str(home),
+        "XDG_CONFIG_HOME": str(home / "config"),
+        "PATH": os.defpath,  # no helper for native dialogs: the path is typed
+    }
+    program = subprocess.Popen(
+        [sys.executable, "-m", "facepin", "--solver", "tikhonov"], env=environment, stderr=subprocess.PIPE
+    )
+    try:
+        window = _wait_for(lambda: hand.do("search", "--name", "^ada - Facepin$"))
+        geometry = dict(
+            line.split("=") for line in hand.do("getwindowgeometry", "--shell", window.split()[0]).splitlines()
+        )
+        left, top = int(geometry["X"]), int(geometry["Y"])
+        time.sleep(0.5)
+        # The chin of the built-in face stands below the middle of the picture.
+        hand.do("mousemove", left + 473, top + 480)
+        time.sleep(0.3)
+        hand.do("mousedown", 1)
+        for _ in range(15):
+            hand.do("mousemove_relative", "--", 0, 2)
+        time.sleep(0.3)
+        hand.do("mouseup", 1)
+        assert _wait_for(lambda: hand.do("search", "--name", r"^ada\* - Facepin$")), "the pose should be unsaved"
+        saved = _save(hand, tmp_path / "dragged.json")
+        assert saved["weights"]["jawOpen"] > 0.1
+        assert len(saved["pins"]) == 1
+        hand.do("key", "ctrl+z")
+        undone = _save(hand, tmp_path / "undone.json")
+        assert not any(undone["weights"].values())
+        assert not undone["pins"]
+        hand.do("key", "ctrl+shift+z")
+        redone = _save(hand, tmp_path / "redone.json")
+        assert np.allclose(list(redone["weights"].values()), list(saved["weights"].values()))
+        hand.do("key", "ctrl+q")
+        _, complaints = program.communicate(timeout=20)
+        assert program.returncode == 0
+        assert complaints == b""
+    finally:
+        program.kill()
+        program.communicate()
+
+
+def _save(hand: Hand, path: Path) -> dict[str, dict[str, float]]:
+    """Save the pose under a typed path, and read it."""
+    hand.do("key", "ctrl+s")
+    time.sleep(0.6)
+    hand.do("key", "ctrl+a")
+    hand.do("type", "--delay", 8, str(path))
+    hand.do("key", "Return")
+    assert _wait_for(lambda: "there" if path.exists() else ""), f"{path.name} was not saved"
+    return json.loads(path.read_text())
+
+
+def _wait_for(ask: object, seconds: float = 20.0) -> str:
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        if answer := ask():
+            return answer
+        time.sleep(0.1)
+    return ""

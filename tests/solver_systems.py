@@ -74,7 +74,8 @@ def awkward_problems() -> dict[str, Problem]:
 def scaled(problem: Problem, factor: float) -> Problem:
     """The same problem with lengths in another unit."""
     system = problem.system
-    other = PinSystem(system.rows * factor, system.limits, system.scale * factor**2)
+    sizes = None if system.sizes is None else system.sizes * factor
+    other = PinSystem(system.rows * factor, system.limits, system.scale * factor**2, sizes)
     return Problem(other, problem.displacement * factor, problem.start)
 
 
@@ -95,5 +96,6 @@ def face_problem(shared: Path, shapes: int, pins: int, seed: int, screen: bool =
     weights = np.zeros(shapes)
     weights[rng.choice(53, 4, replace=False)] = rng.uniform(0.4, 1.0, 4)
     displacement = rows @ weights + rng.normal(0, 0.05, len(rows))
-    system = PinSystem(rows, np.tile([0.0, 1.0], (shapes, 1)), float(np.mean(largest**2)))
+    limits = np.tile([0.0, 1.0], (shapes, 1))
+    system = PinSystem(rows, limits, float(np.mean(largest**2)), largest.astype(np.float64))
     return Problem(system, displacement, np.zeros(shapes))

@@ -1,5 +1,6 @@
 """The two solvers within limits: optimality against independent solvers, and steadiness along a drag."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ from scipy.optimize import lsq_linear, minimize
 
 from facepin.solvers import SOLVERS
 from facepin.solvers.boxed import TOLERANCE
-from facepin.solvers.interface import Floats
+from facepin.solvers.interface import Floats, PinSystem
 from facepin.solvers.sparse import RIDGE
 from solver_systems import Problem, face_problem, random_problem
 
@@ -33,44 +34,46 @@ def bounded_by_scipy(problem: Problem, alpha: float) -> Floats:
     return lsq_linear(rows, wanted, system.limits.T, method="bvls", tol=1e-14, max_iter=2000).x
 
 
-def sparse_objective(problem: Problem, weights: Floats, price: float, fresh: bool) -> float:
+def sparse_prices(system: PinSystem, price: float) -> Floats:
+    sizes = np.sqrt(system.scale) if system.sizes is None else system.sizes
+    return price * np.sqrt(system.scale) * sizes * np.ones(system.rows.shape[1])
+
+
+def sparse_objective(problem: Problem, weights: Floats, price: float) -> float:
     system, start = problem.system, problem.start
     missing = system.rows @ weights - problem.displacement
-    paid = np.abs(weights) if fresh else np.maximum(weights - start, 0.0)
+    paid = np.where(start > 0, np.maximum(weights - start, 0.0), np.abs(weights - start))
     ridge = RIDGE * system.scale
     return float(
         0.5 * missing @ missing
-        + price * system.scale * paid.sum()
+        + sparse_prices(system, price) @ paid
         + 0.5 * ridge * np.sum((weights - start) ** 2)
     )
 
 
-def sparse_by_scipy(problem: Problem, price: float, fresh: bool) -> Floats:
-    """Smooth because every weight is split at its kink: w = c + p - q with p, q ≥ 0, by L-BFGS-B."""
+def sparse_by_scipy(problem: Problem, price: float) -> Floats:
+    """Smooth because every weight is split at its kink: w = w0 + p - q with p, q ≥ 0, by L-BFGS-B."""
     system, start = problem.system, problem.start
     low, high = system.limits.T
-    centre = np.zeros_like(start) if fresh else start
-    cost = price * system.scale
-    down = np.where(fresh | (start <= 0), cost, 0.0)
+    up = sparse_prices(system, price)
+    down = np.where(start <= 0, up, 0.0)
     ridge = RIDGE * system.scale
 
     def value(split: Floats) -> tuple[float, Floats]:
         p, q = np.split(split, 2)
-        weights = centre + p - q
+        weights = start + p - q
         missing = system.rows @ weights - problem.displacement
         gradient = system.rows.T @ missing + ridge * (weights - start)
-        size = (
-            0.5 * missing @ missing + cost * p.sum() + down @ q + 0.5 * ridge * np.sum((weights - start) ** 2)
-        )
-        return size, np.concatenate([gradient + cost, down - gradient])
+        size = 0.5 * missing @ missing + up @ p + down @ q + 0.5 * ridge * np.sum((weights - start) ** 2)
+        return size, np.concatenate([gradient + up, down - gradient])
 
-    bounds = np.stack([np.zeros(2 * len(start)), np.concatenate([high - centre, centre - low])], axis=1)
+    bounds = np.stack([np.zeros(2 * len(start)), np.concatenate([high - start, start - low])], axis=1)
     options = {"maxiter": 20000, "maxfun": 40000, "ftol": 1e-16, "gtol": 1e-11, "maxcor": 40}
     found = minimize(
         value, np.zeros(2 * len(start)), jac=True, method="L-BFGS-B", bounds=bounds, options=options
     )
     p, q = np.split(found.x, 2)
-    return centre + p - q
+    return start + p - q
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -82,13 +85,16 @@ def test_bounded_is_optimal(seed: int, alpha: float) -> None:
 
 
 @pytest.mark.parametrize("seed", range(8))
-@pytest.mark.parametrize("fresh", [False, True])
-def test_sparse_is_optimal(seed: int, fresh: bool) -> None:
+@pytest.mark.parametrize("sized", [False, True])
+def test_sparse_is_optimal(seed: int, sized: bool) -> None:
     for problem in (random_problem(seed), random_problem(seed, rows=30, shapes=12)):
+        if sized:
+            sizes = np.random.default_rng(seed).uniform(0.1, 3.0, problem.system.rows.shape[1])
+            problem = problem._replace(system=replace(problem.system, sizes=sizes))
         for price in (0.01, 0.1, 0.5):
-            weights = solve("sparse", problem, price=price, fresh=fresh)
-            expected = sparse_by_scipy(problem, price, fresh)
-            ours, theirs = (sparse_objective(problem, w, price, fresh) for w in (weights, expected))
+            weights = solve("sparse", problem, price=price)
+            expected = sparse_by_scipy(problem, price)
+            ours, theirs = (sparse_objective(problem, w, price) for w in (weights, expected))
             assert ours <= theirs * (1 + 1e-12)
             np.testing.assert_allclose(weights, expected, atol=2e-4)
 
@@ -98,8 +104,7 @@ def test_sparse_prices_both_signs_where_limits_allow_them(seed: int) -> None:
     problem = random_problem(seed, lowest=-1.0)
     rest = problem._replace(start=np.zeros_like(problem.start))
     weights = solve("sparse", rest, price=0.2)
-    np.testing.assert_allclose(weights, sparse_by_scipy(rest, 0.2, fresh=True), atol=2e-4)
-    np.testing.assert_array_equal(weights, solve("sparse", rest, price=0.2, fresh=True))
+    np.testing.assert_allclose(weights, sparse_by_scipy(rest, 0.2), atol=2e-4)
     assert weights.min() < 0 < weights.max()
     assert np.count_nonzero(weights) < len(weights)
 
@@ -109,9 +114,9 @@ def test_optimal_on_a_real_face(shared: Path, shapes: int, pins: int, screen: bo
     problem = face_problem(shared, shapes, pins, seed=pins, screen=screen)
     expected = bounded_by_scipy(problem, 0.01)
     np.testing.assert_allclose(solve("bounded", problem, alpha=0.01), expected, atol=1e-7)
-    weights = solve("sparse", problem)
-    ours = sparse_objective(problem, weights, 0.03, fresh=False)
-    theirs = sparse_objective(problem, sparse_by_scipy(problem, 0.03, fresh=False), 0.03, fresh=False)
+    weights = solve("sparse", problem, price=0.03)
+    ours = sparse_objective(problem, weights, 0.03)
+    theirs = sparse_objective(problem, sparse_by_scipy(problem, 0.03), 0.03)
     assert ours <= theirs * (1 + 1e-9)
     assert np.count_nonzero(weights > 0.05) <= 20
 
@@ -134,23 +139,24 @@ def test_equal_shapes_share_the_work() -> None:
         assert weights[0] == pytest.approx(weights[1], abs=1e-6)
 
 
-def test_weights_no_pin_can_feel_are_kept() -> None:
+@pytest.mark.parametrize("key", ["sparse", "bounded"])
+def test_weights_no_pin_can_feel_are_kept(key: str) -> None:
     problem = random_problem(5)
     problem.system.rows[:, 3] = 0.0
     problem.start[3] = 0.7
-    for settings in ({"fresh": True}, {"fresh": False}):
-        assert solve("sparse", problem, **settings)[3] == 0.7
-    assert solve("bounded", problem)[3] == 0.7
+    assert solve(key, problem)[3] == 0.7
 
 
-def test_fresh_forgets_what_no_pin_holds_up() -> None:
-    """One pin, and a shape set by hand that moves it a little: the price makes it go only when asked to."""
-    problem = random_problem(6, rows=3, shapes=8)
-    start = np.zeros(8)
-    start[2] = 0.5
-    still = problem._replace(displacement=problem.system.rows @ start, start=start)
-    np.testing.assert_allclose(solve("sparse", still, price=0.3), start, atol=1e-9)
-    assert solve("sparse", still, price=0.3, fresh=True)[2] < 0.4
+def test_the_price_is_for_motion_not_for_travel_of_a_slider() -> None:
+    """The same face with its shapes cut into halves and tenths of themselves moves alike."""
+    problem = random_problem(8, rows=30, shapes=8)._replace(start=np.zeros(8))
+    system = problem.system
+    sizes = np.linalg.norm(system.rows, axis=0)
+    whole = solve("sparse", problem._replace(system=replace(system, sizes=sizes)))
+    cut = np.array([2.0, 10.0] * 4)
+    limits = system.limits * cut[:, None]
+    small = PinSystem(system.rows / cut, limits, system.scale, sizes / cut)
+    np.testing.assert_allclose(solve("sparse", problem._replace(system=small)) / cut, whole, atol=1e-4)
 
 
 @pytest.mark.parametrize("key", ["sparse", "bounded"])

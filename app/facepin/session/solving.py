@@ -102,7 +102,7 @@ class PinSolver:
             rig = self._rig
             self._rows = pin_rows(rig, pins)
             self._solve = self.choice.kind.prepare(
-                PinSystem(self._rows, rig.limits, rig.scale), self.choice.settings
+                PinSystem(self._rows, rig.limits, rig.scale, rig.largest_moves), self.choice.settings
             )
             self._prepared_for = places
         return self._solve

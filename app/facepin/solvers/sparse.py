@@ -14,38 +14,39 @@ shapes, say), and is too weak to be seen."""
 
 @dataclass(frozen=True)
 class SparseSettings:
-    """The price of a weight, and what becomes of the weights that are there already."""
+    """The price of motion."""
 
     price: float = setting(
-        0.03,
+        0.2,
         "What it costs to use a shape: more leaves fewer shapes active, less brings the pins closer.",
         low=0.0,
         high=10.0,
         log=True,
     )
-    fresh: bool = setting(
-        False, "Judges the whole face anew: shapes that no pin asks for fade away, also those set by hand."
-    )
 
 
 def prepare(system: PinSystem, settings: SparseSettings) -> Solve:
-    """w = argmin ½‖J w - d‖² + λ Σ w with l ≤ w ≤ u; λ (`price`) in units of `system.scale`.
+    """w = argmin ½‖J w - d‖² + Σ λⱼ max(wⱼ - w0ⱼ, 0) with l ≤ w ≤ u, and λⱼ = λ mⱼ √scale.
 
-    That is for w0 = 0.  Later in a pose the price is relative to the drag like everything else: using a shape
-    more than at the start costs λ, using it less costs nothing, λ Σ max(w - w0, 0).  So at the press, when
-    every goal is where its vertex is, the answer is w0 and nothing jumps.  With `fresh` the sum is over w
-    whatever w0 is: a weight that no pin holds up is gone with the first frame.  Where limits allow w < 0, |w|
-    takes the place of w.  Shapes that move no pin keep their weight in either case.
+    mⱼ (`system.sizes`) is the largest vertex move of shape j, so what is paid for is motion of the face, not
+    travel of a slider: a shape that moves the face by a millimetre may go all the way for what a tenth of a
+    centimetre costs.  λ (`price`) has no unit; √scale is the rms of all mⱼ.
+
+    w0 is the last pose that no drag made (see `SolverKind.afresh`).  For most faces that is the neutral: w0 = 0,
+    and the price is λⱼ wⱼ.  What was set by hand is not punished: lowering it costs nothing, and while every
+    goal is where its vertex was at w0, the answer is w0.  Where limits allow w < 0 and w0 ≤ 0, going down costs
+    as much as going up.  Shapes that move no pin keep w0.
 
     Notes: `steps` of the active-set method, and `optimality` (see `facepin.solvers.boxed.Minimum`).
     """
     minimise = prepare_boxed(system, RIDGE * system.scale)
-    price = np.full(system.rows.shape[1], settings.price * system.scale)
-    everywhere = Price(np.zeros_like(price), price, price)
+    unit = system.scale**0.5
+    sizes = np.full(system.rows.shape[1], unit) if system.sizes is None else system.sizes
+    price = settings.price * unit * sizes
 
     def solve(displacement: Floats, start: Floats) -> Solution:
-        growth = Price(start, np.where(start >= 0, price, 0.0), np.where(start <= 0, price, 0.0))
-        found = minimise(displacement, start, everywhere if settings.fresh else growth)
+        leaving = Price(start, np.where(start >= 0, price, 0.0), np.where(start <= 0, price, 0.0))
+        found = minimise(displacement, start, leaving)
         return Solution(found.weights, {"steps": float(found.steps), "optimality": found.optimality})
 
     return solve
@@ -58,4 +59,5 @@ KIND = SolverKind(
     settings=SparseSettings,
     prepare=prepare,
     obeys_limits=True,
+    afresh=True,
 )

@@ -71,8 +71,8 @@ class Deformer:
             self._learn(rest)
             parts = self._directions[: self._known] @ change
         mix = np.concatenate([[1.0], parts])
-        # After very large weights (an unregularised solver gives thousands) small ones need a new base.  Asked
-        # this way round, a base that is not a number needs one too.
+        # After very large weights (an unregularised solver gives thousands) small ones need a new base.
+        # Asked this way round, a base that is not a number needs one too.
         if not self._reaches[: len(mix)] @ np.abs(mix) <= CANCELLATION * reach:
             return self._restart(weights)
         return mix

@@ -11,7 +11,7 @@ from PIL import Image
 from facepin.core.events import FilesDropped, PointerMoved, PointerReleased, Scrolled
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
-from facepin.panels.requests import Command
+from facepin.panels.requests import Command, SetPin
 from facepin.session.solving import PinSolver, choose
 
 
@@ -275,3 +275,30 @@ def test_every_size_of_window_draws(size: tuple[int, int], scale: float) -> None
     with running(size=size, scale=scale) as app:
         assert app.frame.viewport.width >= 1
         assert app.screenshot().std() > 5
+
+
+def test_the_menu_of_a_pin_opens_once_and_changes_the_pin() -> None:
+    with running() as app:
+        x, y = app.pixel_of(chin(app))
+        app.drag((x, y), (x, y + 30))
+        (pin,) = app.session.pose.pins
+        x, y = app.pixel_of(pin.vertex)
+        app.press(x, y, "right")
+        app.release(x, y, "right")
+        assert app.desk.view.pin_menu == pin.vertex
+        weights = app.session.pose.weights
+        app.desk.carry_out(SetPin(pin.vertex, freedom="screen"), app.frame.viewport)
+        assert app.session.pose.pins[0].freedom == "screen"
+        assert app.session.pose.weights is not weights  # solved again at once
+        # A click beside it closes it for good.
+        app.press(20, 500)
+        app.release(20, 500)
+        assert app.desk.view.pin_menu is None
+        app.desk.carry_out(SetPin(pin.vertex, remove=True), app.frame.viewport)
+        assert not app.session.pose.pins
+
+
+def test_a_pin_that_no_shape_moves_is_pointed_out() -> None:
+    with running() as app:
+        app.drag((473, 630), (473, 631))  # the shirt
+        assert "No shape" in app.desk.message

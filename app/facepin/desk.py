@@ -156,8 +156,10 @@ class Desk:
         self.session.apply(edit)
         if self.session.message:
             self.say(self.session.message, error=True)
-        elif edit.final and self.is_error:
-            self.say("")
+        elif edit.final:
+            held = [pin.vertex for pin in self.session.pose.pins[-1:]]
+            stuck = edit.label == "Place pin" and not self.session.rig.rows_at(held).any()
+            self.say("No shape of this rig moves the point under the new pin" if stuck else "")
 
     def release(self) -> None:
         """Give everything back."""

@@ -161,7 +161,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
             if scene != drawn_scene:
                 canvas.resize(*window.size)
                 desk.stage.draw(
-                    canvas.framebuffer,
+                    canvas,
                     (viewport,),
                     desk.camera,
                     desk.tool,
@@ -276,7 +276,7 @@ def _route(
     if isinstance(event, PointerPressed) and event.button == "right" and not event.modifiers.alt:
         vertex = pin_at(sight, (event.x, event.y))
         if vertex is not None:
-            desk.view.pin_menu = vertex
+            desk.view.pin_menu, desk.view.pin_menu_opens = vertex, True
             desk.tool.selected = frozenset({vertex})
             return None
     edit = None
@@ -315,20 +315,18 @@ def _bars(desk: Desk, recent: list[Path], seconds: float) -> list[Request]:
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
+    """Draw the menu of the pin that was clicked with the right button, while it is open."""
     if desk.view.pin_menu is None:
         return None
-    pin = next((pin for pin in pose.pins if pin.vertex == desk.view.pin_menu), None)
-    if not imgui.is_popup_open("pin menu"):
+    if desk.view.pin_menu_opens:
         imgui.open_popup("pin menu")
-    request = None
-    if imgui.begin_popup("pin menu"):
-        if pin is None:
-            imgui.close_current_popup()
-        else:
-            request = pin_menu(pin)
-        imgui.end_popup()
-    if not imgui.is_popup_open("pin menu"):
+        desk.view.pin_menu_opens = False
+    pin = next((pin for pin in pose.pins if pin.vertex == desk.view.pin_menu), None)
+    if pin is None or not imgui.begin_popup("pin menu"):
         desk.view.pin_menu = None
+        return None
+    request = pin_menu(pin)
+    imgui.end_popup()
     return request
 
 

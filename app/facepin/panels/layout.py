@@ -7,7 +7,7 @@ from facepin.core.camera import Viewport
 WEIGHTS = "Weights"
 SOLVER = "Solver"
 PANEL_WIDTH = 330.0
-SOLVER_HEIGHT = 300.0
+SOLVER_HEIGHT = 332.0
 """First sizes of the docked panels, in pixels at 1x scale."""
 
 

@@ -27,3 +27,5 @@ class View:
     """Size of text and panels, times what the screen asks for."""
     pin_menu: int | None = None
     """Vertex of the pin whose menu is open."""
+    pin_menu_opens: bool = False
+    """It was asked for just now."""

@@ -1,12 +1,14 @@
 #version 330 core
 // Discs, rings and lines from their distance in pixels: smooth edges without multisampling.
 
+#include "behind.glsl"
+
 uniform float scale;
-uniform float strength;   // less than 1 where the face is in front
 
 flat in vec4 ends;
 flat in vec4 style;
 flat in vec2 shape;
+flat in float strength;
 
 out vec4 pixel;
 
@@ -49,6 +51,7 @@ void main()
     c = over(vec4(style.rgb, covered(away, half_width)), c);
     if (shape.x == 2.0)
         c = over(vec4(OUTLINE, 0.9 * covered(away, 0.3 * half_width)), c);
-    c.a *= strength;
+    // A line dips in and out of the face along its way.
+    c.a *= shape.x == 0.0 ? mix(HIDDEN, 1.0, unhidden(gl_FragCoord.xy, gl_FragCoord.z)) : strength;
     pixel = vec4(c.rgb * c.a, c.a);   // premultiplied, so that pictures without a background add up
 }

@@ -58,15 +58,13 @@ def test_smile_with_pins(gl: moderngl.Context, ada: Rig, request: pytest.Fixture
     mesh.upload(positions, NormalField(ada).normals(positions))
     canvas.resize(SIZE, SIZE)
     view = Viewport(0, 0, SIZE, SIZE)
-    mesh.draw(canvas.framebuffer, view, camera)
+    mesh.draw(canvas, view, camera)
     # The four vertices that smile and jaw move most, well apart; one on its goal, one seen through the face.
     front = np.flatnonzero(ada.neutral[:, 2] > 0)
     places = np.array([[3, -5, 5], [-3, -5, 5], [0, -9, 6], [-5, 2, 2]])
     vertices = [front[np.argmin(np.linalg.norm(ada.neutral[front] - place, axis=1))] for place in places]
     goals = positions[vertices] + np.array([[1.5, 1.5, 0], [-1, 2, 0], [0, -2, 1], [0, 0, 0]], np.float32)
-    layer.draw(
-        canvas.framebuffer, view, camera, Markers(positions[vertices], goals, np.arange(4, dtype=np.uint8))
-    )
+    layer.draw(canvas, view, camera, Markers(positions[vertices], goals, np.arange(4, dtype=np.uint8)))
     image = canvas.read().copy()
     for item in (layer, canvas, mesh, scene):
         item.release()

@@ -16,7 +16,7 @@ from gpu_help import SIZE, WHOLE, ball, camera, drawn
 def test_a_picture_is_what_the_viewport_shows(gl: moderngl.Context) -> None:
     rig = ball()
     with drawn(gl, rig, rig.neutral, samples=4) as (mesh, canvas):
-        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        mesh.draw(canvas, WHOLE, camera(rig))
         seen = canvas.read()
         np.testing.assert_array_equal(draw_picture(mesh, camera(rig), (SIZE, SIZE)), seen)
 

@@ -25,7 +25,7 @@ def test_the_same_arrays_are_sent_once(gl: moderngl.Context) -> None:
 def test_a_ball_covers_what_the_camera_says(gl: moderngl.Context) -> None:
     rig = ball(48)
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas.framebuffer, WHOLE, camera(rig), background=False)
+        mesh.draw(canvas, WHOLE, camera(rig), background=False)
         alpha = canvas.read()[..., 3]
     eye = camera(rig)
     # A sphere's outline is the cone that touches it.
@@ -40,7 +40,7 @@ def test_it_stays_in_its_rectangle(gl: moderngl.Context) -> None:
     rig = ball()
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
         canvas.framebuffer.clear(1, 0, 1, 1)
-        mesh.draw(canvas.framebuffer, Viewport(16, 8, 64, 40), camera(rig))
+        mesh.draw(canvas, Viewport(16, 8, 64, 40), camera(rig))
         picture = canvas.read()
     inside = np.zeros((SIZE, SIZE), bool)
     inside[8:48, 16:80] = True
@@ -56,7 +56,7 @@ def test_two_panes_show_their_own_poses(gl: moderngl.Context) -> None:
         other = PaneMesh(mesh.scene)
         other.upload(stretched, rig.neutral)
         for pane, place in ((mesh, left), (other, right)):
-            pane.draw(canvas.framebuffer, place, camera(rig), background=False)
+            pane.draw(canvas, place, camera(rig), background=False)
         alpha = canvas.read()[..., 3]
         other.release()
     halves = alpha[:, : SIZE // 2], alpha[:, SIZE // 2 :]
@@ -67,14 +67,14 @@ def test_two_panes_show_their_own_poses(gl: moderngl.Context) -> None:
 def test_drawing_does_not_depend_on_the_state_left_by_others(gl: moderngl.Context) -> None:
     rig = ball()
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        mesh.draw(canvas, WHOLE, camera(rig))
         expected = canvas.read().copy()
         gl.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
         gl.blend_func = moderngl.ONE, moderngl.ONE
         gl.cull_face, gl.front_face, gl.depth_func = "front", "cw", ">"
         canvas.framebuffer.scissor = (3, 3, 5, 5)
         canvas.framebuffer.viewport = (1, 1, 20, 20)
-        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        mesh.draw(canvas, WHOLE, camera(rig))
         np.testing.assert_array_equal(canvas.read(), expected)
 
 
@@ -85,7 +85,7 @@ def test_an_inside_out_file_looks_like_any_other(gl: moderngl.Context) -> None:
         for fine in (False, True):
             with drawn(gl, rig, ball_normals(rig, inside_out=inside_out)) as (mesh, canvas):
                 assert [run.hidden for run in mesh.scene.runs] == ["front" if inside_out else "back"]
-                mesh.draw(canvas.framebuffer, WHOLE, camera(rig), fine=fine)
+                mesh.draw(canvas, WHOLE, camera(rig), fine=fine)
                 pictures.append(canvas.read().astype(int))
     assert np.abs(pictures[2] - pictures[0]).mean() < 0.2
     assert np.abs(pictures[3] - pictures[1]).mean() < 0.2
@@ -96,7 +96,7 @@ def test_light_at_vertices_looks_like_light_at_pixels(gl: moderngl.Context) -> N
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
         pictures = []
         for fine in (False, True):
-            mesh.draw(canvas.framebuffer, WHOLE, camera(rig), fine=fine)
+            mesh.draw(canvas, WHOLE, camera(rig), fine=fine)
             pictures.append(canvas.read().astype(int))
     assert np.abs(pictures[0] - pictures[1]).max() <= 6
 
@@ -104,7 +104,7 @@ def test_light_at_vertices_looks_like_light_at_pixels(gl: moderngl.Context) -> N
 def test_light_comes_from_the_upper_left(gl: moderngl.Context) -> None:
     rig = ball(48)
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas.framebuffer, WHOLE, camera(rig))
+        mesh.draw(canvas, WHOLE, camera(rig))
         grey = canvas.read()[..., :3].mean(axis=2)
     upper_left, lower_right = grey[40:50, 40:50].mean(), grey[80:90, 80:90].mean()
     assert upper_left > 1.4 * lower_right
@@ -116,7 +116,7 @@ def test_a_canvas_smooths_edges_and_copies_all_of_itself(gl: moderngl.Context) -
     plain = Canvas(gl, 0)
     plain.resize(SIZE, SIZE)
     with drawn(gl, rig, rig.neutral, samples=4) as (mesh, canvas):
-        mesh.draw(canvas.framebuffer, WHOLE, camera(rig), background=False)
+        mesh.draw(canvas, WHOLE, camera(rig), background=False)
         smooth = canvas.read().copy()
         canvas.resolve(plain.framebuffer)
         np.testing.assert_array_equal(plain.read(), smooth)

@@ -11,6 +11,8 @@ from facepin.core.camera import Camera, Viewport
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
+from facepin.gpu.canvas import Canvas
+from facepin.gpu.canvas import Canvas
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
 from facepin.gpu.scene import PaneMesh, Scene
 from facepin.session.drag import DragTool
@@ -70,7 +72,7 @@ class Stage:
 
     def draw(
         self,
-        framebuffer: moderngl.Framebuffer,
+        canvas: Canvas,
         viewports: tuple[Viewport, ...],
         camera: Camera,
         tool: DragTool,
@@ -80,9 +82,9 @@ class Stage:
     ) -> None:
         """Draw every pane with its pins into its viewport; `fine` is slower where a processor does the drawing."""
         for pane, (viewport, pose) in enumerate(zip(viewports, self.session.poses, strict=True)):
-            self._shown[pane].mesh.draw(framebuffer, viewport, camera, fine=fine)
+            self._shown[pane].mesh.draw(canvas, viewport, camera, fine=fine)
             markers = _markers(pose, self.positions(pane), tool)
-            self._markers.draw(framebuffer, viewport, camera, markers, scale=scale)
+            self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 
     def release(self) -> None:
         """Give the graphics memory back."""

@@ -1,39 +1,64 @@
 """A framebuffer of our own, with as many samples per pixel as wanted."""
 
+from dataclasses import dataclass
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 
 class Canvas:
-    """Colour and depth in memory.  As large as the window, panes draw into it at their own places and one
-    `resolve` brings all of them to the screen with smooth edges.
+    """Colour and depth in memory.
+
+    As large as the window, panes draw into it at their own places and one `resolve` brings all of them to the
+    screen with smooth edges.
     """
 
     def __init__(self, ctx: moderngl.Context, samples: int = 4) -> None:
         """Samples per pixel: 0 or 1 for none, otherwise what the machine can do of it."""
         self.ctx = ctx
         self.samples = min(samples, int(ctx.max_samples)) if samples > 1 else 0
-        self._drawn: moderngl.Framebuffer | None = None
+        self._buffers: _Buffers | None = None
         self._resolved: moderngl.Framebuffer | None = None
 
     @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self._made.framebuffer.size
+
+    @property
     def framebuffer(self) -> moderngl.Framebuffer:
-        """What to draw into, after `resize`."""
-        if self._drawn is None:
-            raise RuntimeError("a canvas has no framebuffer before it is given a size")
-        return self._drawn
+        """To draw the face into, with depth."""
+        return self._made.framebuffer
+
+    @property
+    def overlay(self) -> moderngl.Framebuffer:
+        """The same picture without its depth: to draw over the face while looking at `depth`."""
+        return self._made.overlay
+
+    @property
+    def depth(self) -> moderngl.Texture:
+        """Depth of what is in `framebuffer`; multisampled if there are `samples`."""
+        return self._made.depth
+
+    @property
+    def _made(self) -> "_Buffers":
+        if self._buffers is None:
+            raise RuntimeError("a canvas has nothing to draw into before it is given a size")
+        return self._buffers
 
     def resize(self, width: int, height: int) -> None:
         """Make the canvas this large, in pixels; its content is lost when that is a change."""
         size = (max(width, 1), max(height, 1))
-        if self._drawn is not None and self._drawn.size == size:
+        if self._buffers is not None and self.size == size:
             return
         self.release()
-        self._drawn = self.ctx.framebuffer(
-            [self.ctx.renderbuffer(size, 4, samples=self.samples)],
-            self.ctx.depth_renderbuffer(size, samples=self.samples),
-        )
+        colour = self.ctx.renderbuffer(size, 4, samples=self.samples)
+        depth = self.ctx.depth_texture(size, samples=self.samples)
+        if not self.samples:
+            depth.compare_func = ""  # read as a number, not compared
+        framebuffer, overlay = self.ctx.framebuffer([colour], depth), self.ctx.framebuffer([colour])
+        self._buffers = _Buffers(framebuffer, overlay, depth)
 
     def resolve(self, target: moderngl.Framebuffer) -> None:
         """Copy the picture to a framebuffer of the same size, each pixel the mean of its samples."""
@@ -55,16 +80,35 @@ class Canvas:
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        for framebuffer in (self._drawn, self._resolved):
-            if framebuffer is not None:
-                release_framebuffer(framebuffer)
-        self._drawn = self._resolved = None
+        if self._buffers is not None:
+            leave_framebuffers(self.ctx)
+            self._buffers.overlay.release()
+            release_framebuffer(self._buffers.framebuffer)
+        if self._resolved is not None:
+            release_framebuffer(self._resolved)
+        self._buffers = self._resolved = None
+
+
+@dataclass(frozen=True)
+class _Buffers:
+    """What a canvas is made of at one size."""
+
+    framebuffer: moderngl.Framebuffer
+    overlay: moderngl.Framebuffer
+    depth: moderngl.Texture
+
+
+def leave_framebuffers(ctx: moderngl.Context) -> None:
+    """Go back to the framebuffer of the system.
+
+    moderngl returns to the one in use after it made a new one; that must not be one that was released.
+    """
+    ctx.detect_framebuffer(0).use()
 
 
 def release_framebuffer(framebuffer: moderngl.Framebuffer) -> None:
     """Give back a framebuffer with all that is attached to it."""
-    # moderngl returns to the framebuffer in use after it made a new one; it must not be a deleted one.
-    framebuffer.ctx.detect_framebuffer(0).use()
+    leave_framebuffers(framebuffer.ctx)
     attachments = [*framebuffer.color_attachments, framebuffer.depth_attachment]
     framebuffer.release()
     for attachment in attachments:

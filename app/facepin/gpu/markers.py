@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
+from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.programs import load_program
 
@@ -39,9 +40,6 @@ STYLES: dict[MarkerState, MarkerStyle] = {
 }
 """White and the accent differ in lightness as well as in hue: told apart without colour vision."""
 
-HIDDEN_STRENGTH = 0.3
-"""Opacity of what lies behind the face."""
-
 _VERTICES = 18
 _LAYOUT = np.dtype([("position", "3f4"), ("goal", "3f4"), ("colour", "4f4"), ("radius", "f4")])
 
@@ -63,7 +61,8 @@ class MarkerLayer:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
-        self._program = load_program(ctx, "marker")
+        # Depth with several samples per pixel is another type of texture, hence another program.
+        self._programs = [load_program(ctx, "marker"), load_program(ctx, "marker", "MULTISAMPLED")]
         self._reserve(16)
 
     def _reserve(self, count: int) -> None:
@@ -71,22 +70,16 @@ class MarkerLayer:
         self._capacity = count
         self._instances = self.ctx.buffer(reserve=count * _LAYOUT.itemsize, dynamic=True)
         layout = (self._instances, "3f 3f 4f 1f /i", "position", "goal", "colour", "radius")
-        self._quads = self.ctx.vertex_array(self._program, [layout])
+        self._quads = [self.ctx.vertex_array(program, [layout]) for program in self._programs]
 
     def draw(
-        self,
-        framebuffer: moderngl.Framebuffer,
-        viewport: Viewport,
-        camera: Camera,
-        markers: Markers,
-        *,
-        scale: float = 1.0,
+        self, canvas: Canvas, viewport: Viewport, camera: Camera, markers: Markers, *, scale: float = 1.0
     ) -> None:
         """Draw markers where `PaneMesh.draw` has drawn the face: dimmed where the face hides them.
 
         Parameters
         ----------
-        framebuffer : moderngl.Framebuffer
+        canvas : Canvas
             Still holds the depth of the face.
         viewport, camera
             Those the face was drawn with.
@@ -95,41 +88,41 @@ class MarkerLayer:
         scale : float
             Pixels per point: 2 on a HiDPI screen.
         """
-        self.draw_framed(framebuffer, frame(camera, viewport, framebuffer.height), markers, scale=scale)
+        self.draw_framed(canvas, frame(camera, viewport, canvas.size[1]), markers, scale=scale)
 
-    def draw_framed(
-        self, framebuffer: moderngl.Framebuffer, framing: Framing, markers: Markers, *, scale: float
-    ) -> None:
+    def draw_framed(self, canvas: Canvas, framing: Framing, markers: Markers, *, scale: float) -> None:
         """Draw like `draw`, for a framing that may be a tile of a larger picture."""
         count = len(markers.states)
         if count == 0:
             return
         if count > self._capacity:
-            self._quads.release()
-            self._instances.release()
+            self._give_back_room()
             self._reserve(2 * count)
         self._instances.write(_instances(markers))
-        program = self._program
+        which = 1 if canvas.samples else 0
+        program = self._programs[which]
         program["to_view"] = column_major(framing.to_view)
         program["to_clip"] = column_major(framing.to_clip)
         program["rectangle"] = framing.rectangle
         program["pixel_angle"] = framing.ray_of_pixel[1]
         program["scale"] = scale
-        framebuffer.depth_mask = False
-        framing.use(framebuffer)
-        self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
+        program["depth_map"] = 0
+        canvas.depth.use(0)
+        framing.use(canvas.overlay)
+        self.ctx.enable_only(moderngl.BLEND)
         self.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA  # the shader premultiplies
-        for depth_func, strength in ((">", HIDDEN_STRENGTH), ("<=", 1.0)):
-            self.ctx.depth_func = depth_func
-            program["strength"] = strength
-            self._quads.render(moderngl.TRIANGLES, vertices=_VERTICES, instances=count)
-        framebuffer.depth_mask = True
-        framebuffer.use()
+        self._quads[which].render(moderngl.TRIANGLES, vertices=_VERTICES, instances=count)
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        for item in (self._quads, self._instances, self._program):
-            item.release()
+        self._give_back_room()
+        for program in self._programs:
+            program.release()
+
+    def _give_back_room(self) -> None:
+        for quads in self._quads:
+            quads.release()
+        self._instances.release()
 
 
 def _instances(markers: Markers) -> NDArray[np.void]:

@@ -1,6 +1,7 @@
 """Pictures without a window."""
 
 import io
+from collections.abc import Callable
 from typing import Any
 
 import moderngl
@@ -12,10 +13,13 @@ from facepin.core.camera import Camera, Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
 from facepin.gpu.canvas import Canvas
-from facepin.gpu.framing import frame, tile
+from facepin.gpu.framing import Framing, frame, tile
 from facepin.gpu.scene import PaneMesh, Scene
 
 Image = NDArray[np.uint8]
+
+Overlay = Callable[[Canvas, Framing], None]
+"""Draws something over a picture, or over a tile of it."""
 
 TILE = 2048
 """Largest width and height drawn at once: under every limit, and it bounds the memory of many samples."""
@@ -103,8 +107,9 @@ def draw_picture(
     transparent: bool = False,
     samples: int = 4,
     supersampling: int = 1,
+    overlay: Overlay | None = None,
 ) -> Image:
-    """Draw like `render_picture`, for a mesh that is on the graphics card already."""
+    """Draw like `render_picture`, for a mesh that is on the graphics card already, and `overlay` over it."""
     factor = supersampling
     width, height = size
     whole = frame(camera, Viewport(0, 0, width * factor, height * factor), height * factor)
@@ -117,7 +122,9 @@ def draw_picture(
                 w, h = min(step, width - x), min(step, height - y)
                 canvas.resize(w * factor, h * factor)
                 framing = tile(whole, x * factor, y * factor, w * factor, h * factor)
-                mesh.draw_framed(canvas.framebuffer, framing, fine=True, background=not transparent)
+                mesh.draw_framed(canvas, framing, fine=True, background=not transparent)
+                if overlay is not None:
+                    overlay(canvas, framing)
                 picture[height - y - h : height - y, x : x + w] = _averaged(canvas.read(), factor)
     finally:
         canvas.release()

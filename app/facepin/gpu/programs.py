@@ -14,10 +14,11 @@ class ShaderError(Exception):
     """A shader does not compile or link: file, line and the words of the driver."""
 
 
-def load_program(ctx: moderngl.Context, name: str) -> moderngl.Program:
+def load_program(ctx: moderngl.Context, name: str, *defined: str) -> moderngl.Program:
     """Compile `shaders/<name>.vert` with `shaders/<name>.frag`.
 
-    A line `#include "file"` puts in another file of shaders/, which may not include more.
+    A line `#include "file"` puts in another file of shaders/, which may not include more.  What is `defined`
+    can be asked for with #ifdef.
 
     Raises
     ------
@@ -32,20 +33,21 @@ def load_program(ctx: moderngl.Context, name: str) -> moderngl.Program:
     included = list(dict.fromkeys(found for source in sources for found in _INCLUDE.findall(source)))
     for number, file in enumerate(included, start=1):
         ctx.includes[file] = f"#line 1 {number}\n" + resource("shaders", file).read_text(encoding="utf-8")
-    vertex, fragment = (_numbered(source) for source in sources)
+    vertex, fragment = (_prepared(source, defined) for source in sources)
     try:
         return ctx.program(vertex_shader=vertex, fragment_shader=fragment)
     except moderngl.Error as error:
         raise ShaderError(explain(str(error), files, included)) from None
 
 
-def _numbered(source: str) -> str:
-    """Restore the line count after each include, which the included text would shift."""
+def _prepared(source: str, defined: tuple[str, ...]) -> str:
+    """Add definitions after the first line, and keep the count of lines right across them and includes."""
     lines = source.splitlines()
     for at, line in enumerate(lines):
         if _INCLUDE.match(line):
             lines[at] = f"{line}\n#line {at + 2} 0"
-    return "\n".join(lines) + "\n"
+    definitions = [f"#define {word}" for word in defined]
+    return "\n".join([lines[0], *definitions, "#line 2 0", *lines[1:]]) + "\n"
 
 
 def explain(log: str, files: list[str], included: list[str]) -> str:

@@ -8,6 +8,7 @@ from facepin.core.camera import Camera, Viewport
 from facepin.core.rig import Rig
 from facepin.core.topology import draw_order
 from facepin.gpu.background import Background
+from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.materials import material_runs, vertex_albedo
 from facepin.gpu.openness import Openness
@@ -104,19 +105,19 @@ class PaneMesh:
 
     def draw(
         self,
-        framebuffer: moderngl.Framebuffer,
+        canvas: Canvas,
         viewport: Viewport,
         camera: Camera,
         *,
         fine: bool = True,
         background: bool = True,
     ) -> None:
-        """Draw background and face into a rectangle of `framebuffer`, erasing what was there.
+        """Draw background and face into a rectangle of a canvas, erasing what was there.
 
         Parameters
         ----------
-        framebuffer : moderngl.Framebuffer
-            With colour and depth, multisampled or not.
+        canvas : Canvas
+            Has a size.
         viewport : Viewport
             Where the picture goes.
         camera : Camera
@@ -127,16 +128,14 @@ class PaneMesh:
         background : bool
             Draw the studio wall; otherwise what is not the face stays transparent black.
         """
-        framing = frame(camera, viewport, framebuffer.height)
-        self.draw_framed(framebuffer, framing, fine=fine, background=background)
+        framing = frame(camera, viewport, canvas.size[1])
+        self.draw_framed(canvas, framing, fine=fine, background=background)
 
-    def draw_framed(
-        self, framebuffer: moderngl.Framebuffer, framing: Framing, *, fine: bool, background: bool
-    ) -> None:
+    def draw_framed(self, canvas: Canvas, framing: Framing, *, fine: bool, background: bool) -> None:
         """Draw like `draw`, for a framing that may be a tile of a larger picture."""
         ctx, scene = self.scene.ctx, self.scene
-        framing.use(framebuffer)
-        framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=framing.rectangle)
+        framing.use(canvas.framebuffer)
+        canvas.framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=framing.rectangle)
         for program in (scene.fine_program, scene.fast_program):
             program["to_view"] = column_major(framing.to_view)
             program["to_clip"] = column_major(framing.to_clip)

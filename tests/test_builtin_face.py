@@ -59,7 +59,7 @@ def generator():
     sys.path.remove(str(ASSETS))
 
 
-@pytest.fixture(scope="module", params=["ada"])
+@pytest.fixture(scope="module", params=["ada", "bruno"])
 def model(request, generator):
     """A character made afresh."""
     from generator.assembly import build_model

@@ -38,7 +38,78 @@ ADA = Anatomy(
     hair=Hair(locks=0.05),
     colours=Colours(),
 )
+BRUNO = Anatomy(
+    skull=Skull(
+        cranium=Ball((0, 3.5, -1.15), (7.4, 7.0, 8.0), 0),
+        forehead=Ball((0, 3.3, 1.9), (6.3, 4.7, 5.5), 2.5),
+        face=Ball((0, -2.0, 0.65), (6.7, 6.8, 6.1), 3.0),
+        jaw=Bone((2.3, -8.3, 4.2), (5.1, -5.6, 0.3), (1.9, 1.8), 2.8),
+        chin=Ball((0, -8.75, 5.35), (2.25, 1.7, 2.0), 2.2),
+        cheek=Ball((3.9, -2.9, 4.1), (2.5, 2.1, 2.5), 2.2),
+        buccal=Ball((3.9, -5.6, 3.6), (2.3, 2.3, 2.2), 2.4),
+        muzzle=Ball((0, -5.8, 5.05), (3.0, 2.5, 2.5), 1.9),
+        brow_ridge=Bone((1.5, 2.35, 6.15), (4.8, 2.2, 4.5), (0.95, 1.0), 2.0),
+        neck=Bone((0, -14.0, -2.4), (0, -5.0, -1.4), (3.8, 4.0), 2.4),
+        shoulders=Ball((0, -20.4, -3.0), (8.5, 3.0, 4.2), 3.0),
+    ),
+    nose=Nose(
+        bridge=Bone((0, 1.3, 6.3), (0, -2.5, 8.2), (0.66, 0.85), 1.0),
+        tip=Ball((0, -2.95, 8.6), (1.25, 1.05, 1.15), 1.0),
+        wing=Ball((1.25, -3.25, 7.6), (0.75, 0.68, 0.95), 0.8),
+        columella=Bone((0, -3.40, 8.3), (0, -3.65, 7.0), (0.45, 0.5), 0.8),
+        nostril=Ball((0.68, -3.98, 7.85), (0.30, 0.36, 0.42), 0.28),
+        philtrum=Bone((0, -4.6, 7.9), (0, -5.2, 7.85), (0.18, 0.25), 0.8),
+    ),
+    eye=Eye(
+        centre=(3.55, 0.1, 4.75),
+        radius=1.85,
+        half_width=1.74,
+        inner_half_width=1.52,
+        upper_opening=0.86,
+        lower_opening=0.72,
+        outer_corner=-0.06,
+        yaw=3.0,
+        crease=0.05,
+        socket=1.10,
+        pupil=0.22,
+    ),
+    mouth=Mouth(
+        height=-6.2,
+        half_width=2.55,
+        corner_lift=0.18,
+        upper_lip=0.40,
+        lower_lip=0.56,
+        upper_fullness=0.24,
+        lower_fullness=0.32,
+        upper_roll=0.5,
+        lower_roll=0.3,
+    ),
+    brow=Brow(
+        x=((0, 1.25), (0.3, 2.7), (0.65, 4.4), (1, 5.7)),
+        y=((0, 2.35), (0.3, 2.75), (0.65, 2.80), (1, 2.05)),
+        thickness=0.46,
+    ),
+    hair=Hair(
+        line=(
+            (0, 8.1), (0.42, 8.6), (0.80, 7.6), (1.02, 5.0), (1.16, 1.6), (1.27, -0.75), (1.36, -0.45),
+            (1.50, 1.35), (1.64, 1.30), (1.80, -0.4), (2.05, -3.2), (2.5, -4.6), (3.141592653589793, -5.0),
+        ),
+        locks=0.03,
+    ),
+    colours=Colours(
+        skin=(0.80, 0.565, 0.445),
+        lip=(0.66, 0.36, 0.32),
+        cheek=(0.80, 0.42, 0.34),
+        iris=(0.42, 0.27, 0.14),
+        brow=(0.36, 0.34, 0.33),
+        lash=(0.10, 0.085, 0.08),
+        hair=(0.52, 0.50, 0.49),
+        shirt=(0.42, 0.16, 0.13),
+        teeth=(0.93, 0.89, 0.82),
+    ),
+)  # fmt: skip
 CHARACTERS: dict[str, Anatomy] = {
     "ada": ADA,
+    "bruno": BRUNO,
 }
 """File name -> anatomy; ada is the face that opens by default."""

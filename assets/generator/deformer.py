@@ -38,6 +38,8 @@ class Lips:
     """1 upper lip, -1 lower lip, 0 corner."""
     depth: Array
     """0 contact line .. 1 border of the red."""
+    height: Array
+    """Height of this lip in that of the reference face, 1 there: what thins a lip must not turn it over."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,8 +141,13 @@ class SkinDeformer:
         `reach` are the half axes of the region about the mouth that gives way.
         """
         handles = np.flatnonzero(self.lip)
-        values = motion(Lips(self.across[handles], self.side[handles], self.depth[handles]))
-        values = values * self.map.mouth_scale
+        lips = Lips(
+            self.across[handles],
+            self.side[handles],
+            self.depth[handles],
+            np.where(self.side[handles] > 0, self.map.upper_lip_scale, self.map.lower_lip_scale),
+        )
+        values = motion(lips) * self.map.mouth_scale
         q = (self.reference - np.array([0, -5.8, 5.5])) / np.array(reach)
         still = ((q**2).sum(1) > 1) | (self.reference[:, 1] > -1.6) | (self.eye_ring < 8) | self.inside
         nose = self.brush((0, -2.3, 8.2), (0.9, 0.9, 0.9)) > 0.35

@@ -48,7 +48,10 @@ class FaceMap:
     def __init__(self, anatomy: Anatomy) -> None:
         here, there = landmarks(anatomy), landmarks(REFERENCE)
         self._to_reference = RBFInterpolator(here, there, kernel="linear", degree=1)
-        self.mouth_scale = anatomy.mouth.half_width / REFERENCE.mouth.half_width
+        mouth, usual = anatomy.mouth, REFERENCE.mouth
+        self.mouth_scale = mouth.half_width / usual.half_width
+        self.upper_lip_scale = mouth.upper_lip / usual.upper_lip / self.mouth_scale
+        self.lower_lip_scale = mouth.lower_lip / usual.lower_lip / self.mouth_scale
 
     def to_reference(self, points: Array) -> Array:
         """Return where (n, 3) points of the character lie on the reference face."""

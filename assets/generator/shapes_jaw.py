@@ -58,17 +58,18 @@ def jaw_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]
     jaw = Jaw(character, deformer)
     open_ = jaw.moved(OPEN_ANGLE, (0, -0.35, 0.45))
     open_ = Shape(open_.skin + deformer.mouth(narrow), open_.parts)
+    aside, forward = jaw.moved(shift=(0.55, 0, 0), yaw=4.5), jaw.moved(shift=(0, -0.12, 0.85))
     return {
         "jawOpen": open_,
-        "jawForward": jaw.moved(shift=(0, -0.12, 0.85)),
-        "jawLeft": jaw.moved(shift=(0.55, 0, 0), yaw=4.5),
-        "mouthClose": Shape(_close(deformer, open_.skin)),
+        "jawForward": Shape(forward.skin + _close(deformer, forward.skin, (0.5, 0.3, 0.4)), forward.parts),
+        "jawLeft": Shape(aside.skin + _close(deformer, aside.skin, (0.5, 0.5, 0.5)), aside.parts),
+        "mouthClose": Shape(_close(deformer, open_.skin, (0.4, 0.30, 0.06))),
         "tongueOut": _tongue_out(character, deformer, jaw),
     }
 
 
-def _close(deformer: SkinDeformer, opened: Array) -> Array:
-    """Bring both contact lines together at weight 1 of jawOpen; nearly all of the way is the lower lip's."""
+def _close(deformer: SkinDeformer, opened: Array, upper_share: Vector) -> Array:
+    """Return what brings both contact lines of `opened` together; the upper goes `upper_share` of the way."""
     moved = np.zeros_like(deformer.vertices)
     order = np.arange(MOUTH_LOOP)
     opposite = order[::-1]
@@ -79,7 +80,7 @@ def _close(deformer: SkinDeformer, opened: Array) -> Array:
             np.where(upper, contact, contact[opposite]),
             np.where(upper, contact[opposite], contact),
         )
-        meeting = of_upper + np.array([0.4, 0.30, 0.06]) * (of_lower - of_upper)
+        meeting = of_upper + np.array(upper_share) * (of_lower - of_upper)
         for k, t in enumerate(LIP_PROFILE):
             ring = deformer.lip_ring(k, right)
             moved[ring] = np.where(upper, meeting - of_upper, meeting - of_lower) * mix(1, 0.80, t)

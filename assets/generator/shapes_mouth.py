@@ -64,7 +64,7 @@ def press(lip: Lips) -> Array:
     """Lips pressed together, the red thin."""
     x = lip.across
     on = smoothstep(-0.35, 0.35, x)
-    up = -lip.side * mix(0, 0.36, lip.depth) * on * middle(x)
+    up = -lip.side * mix(0, 0.36, lip.depth) * lip.height * on * middle(x)
     back = -0.13 * (1 - 0.6 * lip.depth) * on * (1 - 0.6 * np.abs(x))
     return columns(0.10 * left_side(x, -0.3), up, back)
 
@@ -113,14 +113,14 @@ def roll_lower(lip: Lips) -> Array:
     """Lower lip rolled in over the teeth."""
     m, low, t = middle(lip.across), lip.side < 0, lip.depth
     back = low * mix(-0.32, -0.14, t) - 0.06 * (lip.side > 0) * (1 - t)
-    return columns(0, low * m * mix(0, 0.50, t**0.8), m * back)
+    return columns(0, low * m * mix(0, 0.50, t**0.8) * lip.height, m * back)
 
 
 def roll_upper(lip: Lips) -> Array:
     """Upper lip rolled in over the teeth."""
     m, high, t = middle(lip.across), lip.side > 0, lip.depth
     back = high * mix(-0.30, -0.10, t) - 0.06 * (lip.side < 0) * (1 - t)
-    return columns(0, high * m * mix(0, -0.40, t**0.8), m * back)
+    return columns(0, high * m * mix(0, -0.40, t**0.8) * lip.height, m * back)
 
 
 def shrug_lower(lip: Lips) -> Array:

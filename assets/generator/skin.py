@@ -89,6 +89,8 @@ def _place_grid(vertices: Array, half: HalfGrid, field: HeadField) -> None:
         (COLUMNS, np.pi),
     )
     azimuth = curve(columns, j)
+    beside_mouth = smoothstep(30, MOUTH_ROWS[0], i) * smoothstep(56, MOUTH_ROWS[1], i) * smoothstep(22, 12, j)
+    azimuth *= 1 + (mouth.half_width / 2.20 - 1) * beside_mouth
     even = smoothstep(MOUTH_ROWS[1] + 3, ROWS - 3, i) + smoothstep(10, 0, i)
     azimuth = mix(azimuth, np.pi * j / COLUMNS, even)
     rows = np.array(
@@ -107,6 +109,9 @@ def _place_grid(vertices: Array, half: HalfGrid, field: HeadField) -> None:
         ]
     )
     height, pitch = curve(rows[:, :2], i), np.radians(curve(rows[:, ::2], i))
+    pitch = pitch * mix(
+        1, 0.5, smoothstep(1.2, 2.4, azimuth)
+    )  # steep rays would leave the back of a thick neck
     origins = np.stack([0 * height, height, 0 * height + field.anatomy.skull.axis_z], 1)
     directions = np.stack(
         [np.cos(pitch) * np.sin(azimuth), np.sin(pitch), np.cos(pitch) * np.cos(azimuth)], 1

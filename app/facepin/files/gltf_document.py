@@ -156,10 +156,14 @@ def _companion(uri: str, length: int, entry: JsonObject, path: Path) -> bytes:
     ):
         entry.refuse("uri", allowed)
     folder = path.resolve().parent
-    target = (folder / name).resolve()
+    try:
+        target = (folder / name).resolve()
+        found = target.is_file()
+    except (OSError, RuntimeError):  # a name too long, a loop of links
+        entry.refuse("uri", allowed)
     if not target.is_relative_to(folder):
         entry.refuse("uri", f"{allowed}, but it is a link that leads out")
-    if not target.is_file():
+    if not found:
         raise FacepinError(f"{entry.place('uri')}: no file {name[:200]!a} beside {path.name}")
     with target.open("rb") as file:
         return file.read(min(length, target.stat().st_size))

@@ -126,6 +126,14 @@ class Archive:
                 yield np.frombuffer(content, member.dtype).reshape(member.shape[1:])
 
 
+def texts(array: NDArray[Any]) -> list[str]:
+    """Return an array of texts (k,) as strings; codes that are no characters become a replacement mark."""
+    if array.dtype.kind == "S":
+        return [bytes(text).decode("utf-8", "replace") for text in array]
+    codec = "utf-32-be" if array.dtype.byteorder == ">" else "utf-32-le"
+    return [text.tobytes().decode(codec, "replace").rstrip("\0") for text in array[:, None]]
+
+
 def _header(file: IO[bytes], where: str) -> tuple[np.dtype[Any], tuple[int, ...], bool, int]:
     """Return dtype, shape, order and header size of a .npy stream; plain number and text types only."""
     start = file.read(8)

@@ -11,7 +11,7 @@ from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import PartLook, build_rig
-from facepin.files.npz_archive import Archive, open_archive
+from facepin.files.npz_archive import Archive, open_archive, texts
 from facepin.files.options import ReadOptions
 
 
@@ -127,13 +127,7 @@ class Extras:
 
     def _texts(self, key: str, count: int | None) -> list[str] | None:
         found = self._fitting(key, "US", None if count is None else (count,))
-        if found is None or found.ndim != 1:
-            return None
-        if found.dtype.kind == "S":
-            return [bytes(text).decode("utf-8", "replace") for text in found]
-        # As bytes first: a code that is no character must not make numpy raise.
-        codec = "utf-32-le" if found.dtype.byteorder in "<=|" else "utf-32-be"
-        return [text.tobytes().decode(codec, "replace").rstrip("\0") for text in found[:, None]]
+        return None if found is None or found.ndim != 1 else texts(found)
 
     def _fitting(self, key: str, kinds: str, shape: tuple[int, ...] | None) -> NDArray[Any] | None:
         """Return array `key` if it is there, of one of `kinds`, of `shape` and finite."""

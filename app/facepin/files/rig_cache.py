@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import zipfile
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -17,10 +16,15 @@ from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files.atomic import atomic_file
+from facepin.files.npz_archive import open_archive, texts
 from facepin.files.options import Progress
 
 VERSION = 1
 MOST_ENTRIES = 16
+KEYS = (
+    *("signature", "neutral", "corners", "face_sizes", "face_parts", "part_names"),
+    *("values", "rows", "starts", "names", "warnings"),
+)
 
 
 def recall(cache: Path, folder: Path, files: list[Path], neutral: Path, progress: Progress) -> Rig | None:
@@ -28,18 +32,17 @@ def recall(cache: Path, folder: Path, files: list[Path], neutral: Path, progress
 
     An entry that is broken, old or about other files counts as none.
     """
-    entry = _entry(cache, folder)
     try:
-        with np.load(entry, allow_pickle=False) as arrays:
-            if str(arrays["signature"]) != _signature(files, neutral):
-                return None
-            content = {key: arrays[key] for key in arrays.files}
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        with open_archive(_entry(cache, folder)) as archive:
+            content = {key: archive.array(archive.member(key)) for key in KEYS}
+        if texts(content["signature"]) != [_signature(files, neutral)]:
+            return None
+    except (FacepinError, OSError):
         return None
     progress(0.5, f"{folder.name} was read before")
     try:
         return _rig(content, folder)
-    except (FacepinError, ValueError, KeyError, IndexError, TypeError):
+    except (FacepinError, ValueError, IndexError, TypeError):
         return None
 
 
@@ -51,7 +54,7 @@ def remember(cache: Path, folder: Path, files: list[Path], neutral: Path, rig: R
         with atomic_file(_entry(cache, folder)) as temporary:
             np.savez(
                 temporary,
-                signature=np.array(_signature(files, neutral)),
+                signature=np.array([_signature(files, neutral)]),
                 neutral=rig.neutral,
                 corners=rig.corners,
                 face_sizes=rig.face_sizes,
@@ -83,10 +86,10 @@ def _rig(content: dict[str, NDArray[Any]], folder: Path) -> Rig:
     vertices = len(content["neutral"])
 
     def shapes() -> Iterator[tuple[str, Delta]]:
-        for j, name in enumerate(content["names"]):
+        for j, name in enumerate(texts(content["names"])):
             delta = np.zeros(3 * vertices, np.float32)
             delta[rows[starts[j] : starts[j + 1]]] = values[starts[j] : starts[j + 1]]
-            yield str(name), delta.reshape(-1, 3)
+            yield name, delta.reshape(-1, 3)
 
     rig = build_rig(
         folder.resolve().name,
@@ -94,8 +97,8 @@ def _rig(content: dict[str, NDArray[Any]], folder: Path) -> Rig:
         content["corners"],
         content["face_sizes"],
         shapes(),
-        parts=[PartLook(str(name)) for name in content["part_names"]],
+        parts=[PartLook(name) for name in texts(content["part_names"])],
         face_parts=content["face_parts"],
         source=folder,
     )
-    return replace(rig, warnings=tuple(str(line) for line in content["warnings"]))
+    return replace(rig, warnings=tuple(texts(content["warnings"])))

@@ -1,5 +1,7 @@
 """Rigs from folders of .obj files."""
 
+import tarfile
+
 import numpy as np
 import pytest
 
@@ -187,3 +189,18 @@ def test_refuses_other_counts_links_and_lonely_files(tmp_path):
 def test_many_continued_lines_take_no_long_time(tmp_path):
     text = obj_lines(POSITIONS, "f 1 2 3 4\n") + "# " + "\\\n" * 300_000
     assert opened(neutral_text(face_folder(tmp_path / "f"), text)).shape_count == 2
+
+
+def test_a_real_folder_is_the_same_as_the_archive(tmp_path, shared):
+    models = shared / "models" / "ict-facekit"
+    with tarfile.open(models / "ict_narrowface_expressions.tar.xz") as archive:
+        archive.extractall(tmp_path, filter="data")
+    (folder,) = (path for path in tmp_path.iterdir() if path.is_dir())
+    rig = opened(folder)
+    whole = open_rig(models / "ict_full153.npz")
+    count = rig.vertex_count
+    assert (count, rig.shape_count, len(rig.face_sizes)) == (6706, 53, 6560)
+    assert rig.shape_names == whole.shape_names[:53]
+    assert np.allclose(rig.neutral, whole.neutral[:count], atol=1e-5)
+    assert np.array_equal(rig.corners, whole.corners[: len(rig.corners)])
+    assert abs(rig.deltas - whole.deltas[: 3 * count, :53]).max() < 5e-3

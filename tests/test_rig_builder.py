@@ -169,6 +169,7 @@ def test_names_become_unique_without_taking_a_name_that_is_there():
         ({"rest_weights": [0.0, 0.0]}, "rest weights"),
         ({"rest_weights": [np.nan]}, "rest weights"),
         ({"limits": [[0.0, 1.0, 2.0]]}, "limits"),
+        ({"limits": [[1.0, 0.5]]}, "limits of s are"),
         ({"colours": np.zeros((4, 3))}, "colours"),
         ({"face_parts": [0]}, "face_parts"),
         ({"face_parts": [0, 1]}, "face_parts"),

@@ -1,6 +1,7 @@
 """Deltas of many shapes as the columns of one sparse matrix, checked on the way in."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,7 +9,7 @@ from scipy.sparse import csc_array
 
 from facepin.core.arrays import Indices, Points, frozen
 from facepin.core.errors import FacepinError
-from facepin.core.names import clean_name, listed
+from facepin.core.names import clean_name
 
 Delta = ArrayLike | tuple[ArrayLike, ArrayLike]
 """(n, 3) moves of all vertices, or the pair (s,) vertex indices and (s, 3) moves of those."""
@@ -20,16 +21,28 @@ MOST_SHAPES = 10_000
 MOST_TWINS = 8
 """Shapes alike at first sight that one is compared with, so that no file can make it take for ever."""
 
-Remark = tuple[str, tuple[int, ...]]
-"""A sentence with a {} for each shape that it speaks of, and the numbers of those shapes."""
+
+@dataclass(frozen=True, eq=False)
+class DeltaColumns:
+    """What a sequence of shapes became."""
+
+    names: list[str]
+    """As they came."""
+    matrix: csc_array
+    """(3 n, k) float32, read-only, indices sorted, without zeros."""
+    equal: list[tuple[int, int]]
+    """Pairs of shapes that are the same."""
+    still: list[int]
+    """Shapes that move nothing."""
 
 
-def delta_columns(
-    where: str, shapes: Iterable[tuple[str, Delta]], vertices: int
-) -> tuple[list[str], csc_array, list[Remark]]:
-    """Gather the deltas as columns.
+def delta_columns(where: str, shapes: Iterable[tuple[str, Delta]], vertices: int) -> DeltaColumns:
+    """Gather the deltas of `vertices` vertices as columns; `where` begins the messages.
 
-    Returns raw names, the (3 n, k) matrix, and remarks with the numbers of the shapes that they speak of.
+    Raises
+    ------
+    FacepinError
+        For deltas that do not fit or are not finite, and for no shapes or too many.
     """
     names: list[str] = []
     rows: list[Indices] = []
@@ -67,7 +80,7 @@ def delta_columns(
     matrix.has_sorted_indices = True
     for array in (matrix.data, matrix.indices, matrix.indptr):
         array.flags.writeable = False
-    return names, matrix, [*_equal_remarks(equal), *_still_remarks(still)]
+    return DeltaColumns(names, matrix, equal, still)
 
 
 def _column(delta: Delta, vertices: int, where: str) -> tuple[Indices, Points]:
@@ -97,21 +110,6 @@ def _column(delta: Delta, vertices: int, where: str) -> tuple[Indices, Points]:
     flat = points[order].ravel()
     kept = np.flatnonzero(flat)
     return (3 * chosen[kept // 3] + kept % 3).astype(np.int32), flat[kept]
-
-
-def _equal_remarks(equal: list[tuple[int, int]]) -> list[Remark]:
-    if not equal:
-        return []
-    pairs = listed(["{} and {}"] * len(equal))
-    numbers = tuple(j for pair in equal for j in pair)[: 2 * pairs.count("{} and {}")]
-    return [(f"equal shapes, which no solver can tell apart: {pairs}", numbers)]
-
-
-def _still_remarks(still: list[int]) -> list[Remark]:
-    if not still:
-        return []
-    names = listed(["{}"] * len(still))
-    return [(f"shapes that move nothing: {names}", tuple(still[: names.count("{}")]))]
 
 
 def checked_points(values: ArrayLike, where: str, vertices: ArrayLike | None = None) -> Points:

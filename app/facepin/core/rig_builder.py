@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.delta_columns import Delta, checked_points, delta_columns
 from facepin.core.errors import FacepinError
-from facepin.core.names import clean_name, clean_names
+from facepin.core.names import clean_name, clean_names, listed
 from facepin.core.rig import Part, Rig
 
 LARGEST_WEIGHT = 1e6
@@ -84,18 +84,27 @@ def build_rig(
         )
     corner_array, sizes, part_of_face = _grouped(corner_array, sizes, part_of_face)
 
-    raw_names, deltas, notes = delta_columns(where, shapes, len(positions))
-    shape_names, name_remarks = clean_names(raw_names)
-    remarks = name_remarks + [note.format(*(shape_names[j] for j in at)) for note, at in notes]
+    columns = delta_columns(where, shapes, len(positions))
+    shape_names, remarks = clean_names(columns.names)
+    if columns.equal:
+        pairs = [f"{shape_names[i]} and {shape_names[j]}" for i, j in columns.equal]
+        remarks.append(f"equal shapes, which no solver can tell apart: {listed(pairs)}")
+    if columns.still:
+        remarks.append(f"shapes that move nothing: {listed([shape_names[j] for j in columns.still])}")
     count = len(shape_names)
     rest = frozen(_numbers(rest_weights, (count,), 0.0, f"{where}: rest weights"), np.float64)
     allowed = _numbers(limits, (count, 2), (0.0, 1.0), f"{where}: limits")
+    if (allowed[:, 0] > allowed[:, 1]).any():
+        j = int(np.argmax(allowed[:, 0] > allowed[:, 1]))
+        raise FacepinError(
+            f"{where}: limits of {shape_names[j]} are {allowed[j].tolist()}, allowed: low, high"
+        )
     allowed = np.stack([np.minimum(allowed[:, 0], rest), np.maximum(allowed[:, 1], rest)], axis=1)
 
     return Rig(
         name=name,
         neutral=positions,
-        deltas=deltas,
+        deltas=columns.matrix,
         shape_names=tuple(shape_names),
         corners=frozen(corner_array, np.int32),
         face_sizes=frozen(sizes, np.int32),

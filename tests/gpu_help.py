@@ -5,6 +5,7 @@ from contextlib import contextmanager
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport, frame_points
@@ -56,6 +57,24 @@ def camera(rig: Rig) -> Camera:
 def ball_normals(rig: Rig, *, inside_out: bool = False) -> Points:
     """Normals of the ball as its winding gives them."""
     return -rig.neutral if inside_out else rig.neutral
+
+
+def draw(
+    mesh: PaneMesh,
+    canvas: Canvas,
+    view: Camera,
+    viewport: Viewport = WHOLE,
+    *,
+    fine: bool = True,
+    background: bool = True,
+) -> NDArray[np.uint8]:
+    """Draw one pane and return the picture."""
+    if background:
+        mesh.scene.background.draw(canvas, [(viewport, view)])
+    else:
+        canvas.clear()
+    mesh.draw(canvas, viewport, view, fine=fine)
+    return canvas.read().copy()
 
 
 @contextmanager

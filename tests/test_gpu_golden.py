@@ -58,6 +58,7 @@ def test_smile_with_pins(gl: moderngl.Context, ada: Rig, request: pytest.Fixture
     mesh.upload(positions, NormalField(ada).normals(positions))
     canvas.resize(SIZE, SIZE)
     view = Viewport(0, 0, SIZE, SIZE)
+    scene.background.draw(canvas, [(view, camera)])
     mesh.draw(canvas, view, camera)
     # The four vertices that smile and jaw move most, well apart; one on its goal, one seen through the face.
     front = np.flatnonzero(ada.neutral[:, 2] > 0)

@@ -6,7 +6,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 from facepin.gpu.markers import STYLES, MarkerLayer, Markers, MarkerState
-from gpu_help import SIZE, WHOLE, ball, camera, drawn
+from gpu_help import SIZE, WHOLE, ball, camera, draw, drawn
 
 FRONT, BACK = (0.3, 0.2, 0.92), (0.3, 0.2, -0.92)
 
@@ -22,8 +22,7 @@ def change(gl: moderngl.Context, pins: Markers, scale: float = 1.0) -> tuple[np.
     rig = ball()
     layer = MarkerLayer(gl)
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas, WHOLE, camera(rig))
-        before = canvas.read().astype(int)
+        before = draw(mesh, canvas, camera(rig)).astype(int)
         layer.draw(canvas, WHOLE, camera(rig), pins, scale=scale)
         after = canvas.read().astype(int)
     layer.release()
@@ -121,9 +120,7 @@ def test_depth_can_be_written_again_afterwards(gl: moderngl.Context) -> None:
     rig = ball()
     layer = MarkerLayer(gl)
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas, WHOLE, camera(rig))
-        expected = canvas.read().copy()
+        expected = draw(mesh, canvas, camera(rig))
         layer.draw(canvas, WHOLE, camera(rig), markers(FRONT))
-        mesh.draw(canvas, WHOLE, camera(rig))
-        np.testing.assert_array_equal(canvas.read(), expected)
+        np.testing.assert_array_equal(draw(mesh, canvas, camera(rig)), expected)
     layer.release()

@@ -10,14 +10,13 @@ from PIL import Image
 from facepin.core.errors import FacepinError
 from facepin.gpu import picture
 from facepin.gpu.picture import draw_picture, open_context, png_bytes, render_picture
-from gpu_help import SIZE, WHOLE, ball, camera, drawn
+from gpu_help import SIZE, ball, camera, draw, drawn
 
 
 def test_a_picture_is_what_the_viewport_shows(gl: moderngl.Context) -> None:
     rig = ball()
     with drawn(gl, rig, rig.neutral, samples=4) as (mesh, canvas):
-        mesh.draw(canvas, WHOLE, camera(rig))
-        seen = canvas.read()
+        seen = draw(mesh, canvas, camera(rig))
         np.testing.assert_array_equal(draw_picture(mesh, camera(rig), (SIZE, SIZE)), seen)
 
 

@@ -6,8 +6,9 @@ import pytest
 
 from facepin.core.camera import Viewport
 from facepin.gpu.canvas import Canvas
+from facepin.gpu.framing import frame
 from facepin.gpu.scene import PaneMesh, Scene
-from gpu_help import SIZE, WHOLE, ball, ball_normals, camera, drawn
+from gpu_help import SIZE, WHOLE, ball, ball_normals, camera, draw, drawn
 
 
 def test_the_same_arrays_are_sent_once(gl: moderngl.Context) -> None:
@@ -25,8 +26,7 @@ def test_the_same_arrays_are_sent_once(gl: moderngl.Context) -> None:
 def test_a_ball_covers_what_the_camera_says(gl: moderngl.Context) -> None:
     rig = ball(48)
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas, WHOLE, camera(rig), background=False)
-        alpha = canvas.read()[..., 3]
+        alpha = draw(mesh, canvas, camera(rig), background=False)[..., 3]
     eye = camera(rig)
     # A sphere's outline is the cone that touches it.
     edge = np.tan(np.arcsin(1 / eye.distance)) / np.tan(eye.fov_y / 2) * SIZE / 2
@@ -36,16 +36,14 @@ def test_a_ball_covers_what_the_camera_says(gl: moderngl.Context) -> None:
     assert (alpha[away > edge + 1] == 0).all()
 
 
-def test_it_stays_in_its_rectangle(gl: moderngl.Context) -> None:
+@pytest.mark.parametrize("samples", [0, 4])
+def test_it_stays_in_its_rectangle(gl: moderngl.Context, samples: int) -> None:
     rig = ball()
-    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        canvas.framebuffer.clear(1, 0, 1, 1)
-        mesh.draw(canvas, Viewport(16, 8, 64, 40), camera(rig))
-        picture = canvas.read()
+    with drawn(gl, rig, rig.neutral, samples) as (mesh, canvas):
+        alpha = draw(mesh, canvas, camera(rig).zoomed(3), Viewport(16, 8, 64, 40))[..., 3]
     inside = np.zeros((SIZE, SIZE), bool)
     inside[8:48, 16:80] = True
-    assert (picture[~inside] == (255, 0, 255, 255)).all()
-    assert not (picture[inside] == (255, 0, 255, 255)).all(axis=1).any()
+    np.testing.assert_array_equal(alpha, 255 * inside)
 
 
 def test_two_panes_show_their_own_poses(gl: moderngl.Context) -> None:
@@ -55,8 +53,9 @@ def test_two_panes_show_their_own_poses(gl: moderngl.Context) -> None:
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
         other = PaneMesh(mesh.scene)
         other.upload(stretched, rig.neutral)
+        canvas.clear()
         for pane, place in ((mesh, left), (other, right)):
-            pane.draw(canvas, place, camera(rig), background=False)
+            pane.draw(canvas, place, camera(rig))
         alpha = canvas.read()[..., 3]
         other.release()
     halves = alpha[:, : SIZE // 2], alpha[:, SIZE // 2 :]
@@ -64,18 +63,30 @@ def test_two_panes_show_their_own_poses(gl: moderngl.Context) -> None:
     np.testing.assert_array_equal(halves[0][SIZE // 2 :], halves[1][SIZE // 2 :])
 
 
+def test_the_wall_is_kept_until_panes_or_lens_change(gl: moderngl.Context) -> None:
+    rig = ball(6)
+    left, right = Viewport(0, 0, SIZE / 2, SIZE), Viewport(SIZE / 2, 0, SIZE / 2, SIZE)
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        wall = mesh.scene.background
+        for viewports in ([WHOLE], [left, right], [left], [WHOLE]):
+            mesh.draw(canvas, WHOLE, camera(rig))  # something to erase
+            wall.draw(canvas, [(viewport, camera(rig)) for viewport in viewports])
+            kept = canvas.read().copy()
+            wall.draw_framed(canvas, [frame(camera(rig), viewport, SIZE) for viewport in viewports])
+            np.testing.assert_array_equal(canvas.read(), kept)
+            assert len(np.unique(kept[..., 3])) == (2 if viewports == [left] else 1)
+
+
 def test_drawing_does_not_depend_on_the_state_left_by_others(gl: moderngl.Context) -> None:
     rig = ball()
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas, WHOLE, camera(rig))
-        expected = canvas.read().copy()
+        expected = draw(mesh, canvas, camera(rig))
         gl.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
         gl.blend_func = moderngl.ONE, moderngl.ONE
         gl.cull_face, gl.front_face, gl.depth_func = "front", "cw", ">"
         canvas.framebuffer.scissor = (3, 3, 5, 5)
         canvas.framebuffer.viewport = (1, 1, 20, 20)
-        mesh.draw(canvas, WHOLE, camera(rig))
-        np.testing.assert_array_equal(canvas.read(), expected)
+        np.testing.assert_array_equal(draw(mesh, canvas, camera(rig)), expected)
 
 
 def test_an_inside_out_file_looks_like_any_other(gl: moderngl.Context) -> None:
@@ -85,8 +96,7 @@ def test_an_inside_out_file_looks_like_any_other(gl: moderngl.Context) -> None:
         for fine in (False, True):
             with drawn(gl, rig, ball_normals(rig, inside_out=inside_out)) as (mesh, canvas):
                 assert [run.hidden for run in mesh.scene.runs] == ["front" if inside_out else "back"]
-                mesh.draw(canvas, WHOLE, camera(rig), fine=fine)
-                pictures.append(canvas.read().astype(int))
+                pictures.append(draw(mesh, canvas, camera(rig), fine=fine).astype(int))
     assert np.abs(pictures[2] - pictures[0]).mean() < 0.2
     assert np.abs(pictures[3] - pictures[1]).mean() < 0.2
 
@@ -94,18 +104,14 @@ def test_an_inside_out_file_looks_like_any_other(gl: moderngl.Context) -> None:
 def test_light_at_vertices_looks_like_light_at_pixels(gl: moderngl.Context) -> None:
     rig = ball(64)
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        pictures = []
-        for fine in (False, True):
-            mesh.draw(canvas, WHOLE, camera(rig), fine=fine)
-            pictures.append(canvas.read().astype(int))
-    assert np.abs(pictures[0] - pictures[1]).max() <= 6
+        fast, fine = (draw(mesh, canvas, camera(rig), fine=fine).astype(int) for fine in (False, True))
+    assert np.abs(fast - fine).max() <= 6
 
 
 def test_light_comes_from_the_upper_left(gl: moderngl.Context) -> None:
     rig = ball(48)
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        mesh.draw(canvas, WHOLE, camera(rig))
-        grey = canvas.read()[..., :3].mean(axis=2)
+        grey = draw(mesh, canvas, camera(rig))[..., :3].mean(axis=2)
     upper_left, lower_right = grey[40:50, 40:50].mean(), grey[80:90, 80:90].mean()
     assert upper_left > 1.4 * lower_right
     assert 120 < upper_left < 235, "bright, and nothing burnt out"
@@ -116,8 +122,8 @@ def test_a_canvas_smooths_edges_and_copies_all_of_itself(gl: moderngl.Context) -
     plain = Canvas(gl, 0)
     plain.resize(SIZE, SIZE)
     with drawn(gl, rig, rig.neutral, samples=4) as (mesh, canvas):
-        mesh.draw(canvas, WHOLE, camera(rig), background=False)
-        smooth = canvas.read().copy()
+        smooth = draw(mesh, canvas, camera(rig), background=False)
+        canvas.framebuffer.scissor = plain.framebuffer.scissor = (5, 5, 9, 9)
         canvas.resolve(plain.framebuffer)
         np.testing.assert_array_equal(plain.read(), smooth)
     plain.release()

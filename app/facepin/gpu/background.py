@@ -1,8 +1,12 @@
 """The studio wall behind the face."""
 
+from collections.abc import Sequence
+
 import moderngl
 
-from facepin.gpu.framing import Framing
+from facepin.core.camera import Camera, Viewport
+from facepin.gpu.canvas import Canvas
+from facepin.gpu.framing import Framing, frame
 from facepin.gpu.programs import load_program
 
 POOL = (1.47, 1.67)
@@ -12,23 +16,51 @@ POOL_HEIGHT = 0.13
 
 
 class Background:
-    """Fills what the face leaves empty; one for all panes."""
+    """What every picture begins with; one for all panes."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
         self._program = load_program(ctx, "background")
         self._triangle = ctx.vertex_array(self._program, [])
+        self._kept = Canvas(ctx, 0)
+        self._keeps: object = None
 
-    def draw_framed(self, framing: Framing) -> None:
-        """Draw behind what is in the depth buffer, into a rectangle that is in use (`Framing.use`)."""
-        sx, sy, ox, oy = framing.ray_of_pixel
-        kx, ky = 1 / (POOL[0] * framing.half_picture[0]), 1 / (POOL[1] * framing.half_picture[1])
-        self._program["pool_of_pixel"] = (sx * kx, sy * ky, ox * kx, oy * ky - POOL_HEIGHT / POOL[1])
-        self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.ctx.depth_func = "<="
-        self._triangle.render(moderngl.TRIANGLES, vertices=3)
+    def draw(self, canvas: Canvas, sights: Sequence[tuple[Viewport, Camera]]) -> None:
+        """Erase a canvas and draw the wall of every pane.
+
+        Parameters
+        ----------
+        canvas : Canvas
+            Has a size.
+        sights : sequence of (viewport, camera)
+            The panes; what is outside of them becomes transparent black.  Of a camera its lens matters here,
+            not where it stands.
+        """
+        framings = [frame(camera, viewport, canvas.size[1]) for viewport, camera in sights]
+        if canvas.samples:
+            self.draw_framed(canvas, framings)
+            return
+        # Copying a whole picture takes a processor a tenth of a millisecond, drawing it several.
+        keeps = (canvas.size, [(framing.rectangle, framing.half_picture) for framing in framings])
+        if keeps != self._keeps:
+            self._kept.resize(*canvas.size)
+            self.draw_framed(self._kept, framings)
+            self._keeps = keeps
+        self._kept.copy_to(canvas)
+
+    def draw_framed(self, canvas: Canvas, framings: Sequence[Framing]) -> None:
+        """Draw like `draw`, for framings that may be tiles of larger pictures."""
+        canvas.clear()
+        for framing in framings:
+            sx, sy, ox, oy = framing.ray_of_pixel
+            kx, ky = 1 / (POOL[0] * framing.half_picture[0]), 1 / (POOL[1] * framing.half_picture[1])
+            self._program["pool_of_pixel"] = (sx * kx, sy * ky, ox * kx, oy * ky - POOL_HEIGHT / POOL[1])
+            framing.use(canvas.framebuffer)
+            self.ctx.enable_only(moderngl.NOTHING)
+            self._triangle.render(moderngl.TRIANGLES, vertices=3)
 
     def release(self) -> None:
         """Give the graphics memory back."""
+        self._kept.release()
         self._triangle.release()
         self._program.release()

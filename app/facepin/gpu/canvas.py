@@ -60,12 +60,24 @@ class Canvas:
         framebuffer, overlay = self.ctx.framebuffer([colour], depth), self.ctx.framebuffer([colour])
         self._buffers = _Buffers(framebuffer, overlay, depth)
 
+    def clear(self) -> None:
+        """Make the picture transparent black, and far away."""
+        self._use_all_of(self.framebuffer)
+        self.framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
+
+    def copy_to(self, other: "Canvas") -> None:
+        """Copy picture and depth to a canvas of the same size and samples."""
+        self._copy(self.framebuffer, other.framebuffer)
+
     def resolve(self, target: moderngl.Framebuffer) -> None:
         """Copy the picture to a framebuffer of the same size, each pixel the mean of its samples."""
-        for framebuffer in (self.framebuffer, target):  # copying obeys the scissor
-            framebuffer.scissor = (0, 0, *framebuffer.size)
-            framebuffer.use()
-        self.ctx.copy_framebuffer(target, self.framebuffer)
+        # Not from the one with depth: depth would be copied too, or refused where its format differs.
+        self._copy(self.overlay, target)
+
+    def _copy(self, source: moderngl.Framebuffer, target: moderngl.Framebuffer) -> None:
+        self._use_all_of(source)
+        self._use_all_of(target)
+        self.ctx.copy_framebuffer(target, source)
 
     def read(self) -> NDArray[np.uint8]:
         """Return the picture, (h, w, 4) uint8, first row on top."""
@@ -77,6 +89,12 @@ class Canvas:
             source = self._resolved
         data = np.frombuffer(source.read(components=4, alignment=1), np.uint8)
         return data.reshape(source.height, source.width, 4)[::-1]
+
+    @staticmethod
+    def _use_all_of(framebuffer: moderngl.Framebuffer) -> None:
+        """Clearing and copying obey the scissor."""
+        framebuffer.scissor = (0, 0, *framebuffer.size)
+        framebuffer.use()
 
     def release(self) -> None:
         """Give the graphics memory back."""

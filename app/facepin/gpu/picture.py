@@ -122,7 +122,11 @@ def draw_picture(
                 w, h = min(step, width - x), min(step, height - y)
                 canvas.resize(w * factor, h * factor)
                 framing = tile(whole, x * factor, y * factor, w * factor, h * factor)
-                mesh.draw_framed(canvas, framing, fine=True, background=not transparent)
+                if transparent:
+                    canvas.clear()
+                else:
+                    mesh.scene.background.draw_framed(canvas, [framing])
+                mesh.draw_framed(canvas, framing, fine=True)
                 if overlay is not None:
                     overlay(canvas, framing)
                 picture[height - y - h : height - y, x : x + w] = _averaged(canvas.read(), factor)

@@ -103,16 +103,10 @@ class PaneMesh:
         self._uploaded = positions, normals
         return True
 
-    def draw(
-        self,
-        canvas: Canvas,
-        viewport: Viewport,
-        camera: Camera,
-        *,
-        fine: bool = True,
-        background: bool = True,
-    ) -> None:
-        """Draw background and face into a rectangle of a canvas, erasing what was there.
+    def draw(self, canvas: Canvas, viewport: Viewport, camera: Camera, *, fine: bool = True) -> None:
+        """Draw the face into a rectangle of a canvas.
+
+        A picture begins with `Background.draw` (or `Canvas.clear`), for all panes at once.
 
         Parameters
         ----------
@@ -125,17 +119,14 @@ class PaneMesh:
         fine : bool
             Compute light at every pixel; otherwise at the vertices of matt, closed surfaces, which is what
             keeps a drag smooth on a machine without a graphics card.
-        background : bool
-            Draw the studio wall; otherwise what is not the face stays transparent black.
         """
         framing = frame(camera, viewport, canvas.size[1])
-        self.draw_framed(canvas, framing, fine=fine, background=background)
+        self.draw_framed(canvas, framing, fine=fine)
 
-    def draw_framed(self, canvas: Canvas, framing: Framing, *, fine: bool, background: bool) -> None:
+    def draw_framed(self, canvas: Canvas, framing: Framing, *, fine: bool) -> None:
         """Draw like `draw`, for a framing that may be a tile of a larger picture."""
         ctx, scene = self.scene.ctx, self.scene
         framing.use(canvas.framebuffer)
-        canvas.framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=framing.rectangle)
         for program in (scene.fine_program, scene.fast_program):
             program["to_view"] = column_major(framing.to_view)
             program["to_clip"] = column_major(framing.to_clip)
@@ -156,8 +147,6 @@ class PaneMesh:
             program["tint"] = run.tint
             program["roughness"] = run.roughness
             mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
-        if background:
-            scene.background.draw_framed(framing)
 
     def release(self) -> None:
         """Give the graphics memory back."""

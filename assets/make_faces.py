@@ -7,7 +7,7 @@ from pathlib import Path
 from generator.archive import write_archive
 from generator.assembly import arrays, build_model
 from generator.character import build_character
-from generator.characters import CHARACTERS
+from generator.characters import CHARACTERS, PRODUCTION
 
 FACES = Path(__file__).resolve().parent / "faces"
 
@@ -24,7 +24,7 @@ def main() -> None:
     if unknown:
         parser.error(f"no character {', '.join(unknown)} (there are: {', '.join(CHARACTERS)})")
     for name in options.names or CHARACTERS:
-        model = build_model(build_character(CHARACTERS[name]))
+        model = build_model(build_character(CHARACTERS[name]), production=name in PRODUCTION)
         path = options.out / f"{name}.npz"
         write_archive(path, arrays(model))
         counts = f"{len(model.character.vertices)} vertices, {len(model.names)} shapes"

@@ -12,6 +12,7 @@ from generator.shape import Shape
 from generator.shapes_eyes import LID_SHAPES, brow_shapes, lid_shapes
 from generator.shapes_jaw import jaw_shapes
 from generator.shapes_mouth import mouth_shapes
+from generator.shapes_production import production_shapes
 from generator.vectors import MIRROR, Array, Ints
 
 ARKIT = (
@@ -31,6 +32,7 @@ SMALLEST = 1e-4
 """Shorter motions of a coordinate are dropped: they cost memory and show nothing."""
 CLOSING_LIFT = 0.08
 """How far (in eyeball radii) wide-open lids rise while they close: their way is longer than a blink's."""
+OPENING = ("eyeWide", "eyeLookUp", "eyeUpperUp")
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,23 +55,28 @@ class FaceModel:
             for full in (name,) if name in self.names else (name + "Left", name + "Right"):
                 w[self.names.index(full)] += value
         products = w[self.combo_pairs[:, 0]] * w[self.combo_pairs[:, 1]]
-        posed: Array = self.character.vertices + np.einsum("k,knc->nc", w, self.deltas)
+        posed = self.character.vertices.copy()
+        for k in np.flatnonzero(w):
+            posed += w[k] * self.deltas[k]
         for k in np.flatnonzero(products):
             posed += products[k] * self.combo_deltas[k]
         return posed
 
 
-def build_model(character: Character, names: Sequence[str] = ARKIT) -> FaceModel:
-    """Return the rig of a character with the named shapes."""
+def build_model(character: Character, production: bool = False) -> FaceModel:
+    """Return the rig of a character with the ARKit shapes, and those of a production rig when asked for."""
     deformer = SkinDeformer(character.skin, character.anatomy)
     shapes = _left_shapes(character, deformer)
+    if production:
+        shapes |= production_shapes(character, deformer, shapes)
     for name in list(shapes):
         if "Left" in name:
             shapes[swapped(name)] = _mirrored(shapes[name], character, deformer)
+    names = (*ARKIT, *sorted(shapes.keys() - set(ARKIT)))
     follow = _Followers(character)
     deltas = np.stack([follow.all_parts(shapes[name]) for name in names])
     pairs, combos = _blink_combinations(shapes, names, character, deformer)
-    return FaceModel(character, tuple(names), deltas, pairs, combos)
+    return FaceModel(character, names, deltas, pairs, combos)
 
 
 def _left_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:
@@ -140,7 +147,7 @@ def _blink_combinations(
         lash = "lashL" if "Left" in name else "lashR"
         rise = lift if "Left" in name else deformer.mirrored(lift)
         roots = character.lash_roots if lash == "lashL" else deformer.mirror[character.lash_roots]
-        opens = float(name.startswith(("eyeWide", "eyeLookUp")))
+        opens = float(name.startswith(OPENING))
         moved = np.zeros_like(character.vertices)
         moved[character.at("skin")] = opens * rise - shape.lid
         moved[character.at(lash)] = opens * rise[roots] - shape.parts[lash]

@@ -1,5 +1,7 @@
 """The characters that come with the program."""
 
+from dataclasses import replace
+
 from generator.anatomy import Anatomy, Ball, Bone, Brow, Colours, Eye, Hair, Mouth, Nose, Skull
 
 ADA = Anatomy(
@@ -108,8 +110,45 @@ BRUNO = Anatomy(
         teeth=(0.93, 0.89, 0.82),
     ),
 )  # fmt: skip
+MIRA = replace(
+    ADA,
+    skull=replace(
+        ADA.skull,
+        face=Ball((0, -1.6, 0.65), (5.95, 6.35, 6.1), 3.0),
+        jaw=Bone((1.35, -7.35, 4.6), (4.05, -4.8, 0.1), (1.35, 1.35), 2.8),
+        cheek=Ball((3.55, -2.35, 4.15), (2.3, 1.85, 2.4), 2.2),
+    ),
+    nose=replace(
+        ADA.nose,
+        bridge=Bone((0, 1.3, 6.15), (0, -2.0, 7.6), (0.55, 0.66), 1.0),
+        tip=Ball((0, -2.30, 7.95), (0.88, 0.70, 0.80), 0.9),
+        wing=Ball((0.98, -2.62, 7.25), (0.56, 0.48, 0.74), 0.75),
+    ),
+    eye=replace(ADA.eye, upper_opening=1.10, lower_opening=0.84, outer_corner=0.28, inner_corner=-0.20),
+    mouth=replace(
+        ADA.mouth, half_width=2.15, upper_lip=0.72, lower_lip=0.86, upper_fullness=0.38, lower_fullness=0.48
+    ),
+    brow=Brow(
+        x=((0, 1.42), (0.3, 2.8), (0.65, 4.4), (1, 5.7)),
+        y=((0, 2.55), (0.3, 2.98), (0.65, 3.22), (1, 2.58)),
+        thickness=0.22,
+    ),
+    colours=Colours(
+        skin=(0.53, 0.365, 0.285),
+        lip=(0.50, 0.255, 0.235),
+        cheek=(0.57, 0.31, 0.25),
+        iris=(0.38, 0.24, 0.10),
+        brow=(0.10, 0.07, 0.06),
+        lash=(0.05, 0.04, 0.04),
+        hair=(0.10, 0.075, 0.07),
+        shirt=(0.62, 0.42, 0.16),
+    ),
+)
 CHARACTERS: dict[str, Anatomy] = {
     "ada": ADA,
     "bruno": BRUNO,
+    "mira": MIRA,
 }
 """File name -> anatomy; ada is the face that opens by default."""
+PRODUCTION = ("mira",)
+"""Characters with the large set of shapes."""

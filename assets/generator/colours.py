@@ -10,10 +10,12 @@ from generator.skin import Skin
 from generator.topology import EYE_LINING, EYE_LOOP, LIP_RINGS, MOUTH_BAG
 from generator.vectors import Array, blob, mix, repeated, smoothstep
 
-LID_TINT: Colour = (0.80, 0.50, 0.42)
+LID_TINT: Colour = (0.884, 0.725, 0.718)
+"""Share of the skin's colour that thin lids reflect."""
 LID_CREASE = {4: 0.10, 5: 0.45, 6: 0.15}
 """Share of the lid tint in the rings about the crease."""
-LID_LINING: tuple[Colour, Colour] = ((0.85, 0.55, 0.50), (0.5, 0.25, 0.22))
+LID_LINING: tuple[Colour, Colour] = ((0.94, 0.80, 0.855), (0.55, 0.36, 0.38))
+"""The same for the lining, at the margin and deep inside."""
 MOUTH_DARK: Colour = (0.33, 0.075, 0.075)
 THROAT: Colour = (0.2, 0.04, 0.04)
 OCCLUDED: Colour = (0.79, 0.63, 0.59)
@@ -29,6 +31,7 @@ def paint_skin(skin: Skin, field: HeadField) -> tuple[Array, Array]:
     side = FaceMap(field.anatomy).to_reference(v)
     side[:, 0] = np.abs(side[:, 0])
     colour = repeated(colours.skin, len(v))
+    lid = np.array(colours.skin) * LID_TINT
     for share, centre, radii in (
         (0.50, (3.9, -2.4, 5.5), (1.7, 1.25, 2.5)),
         (0.38, (0, -2.6, 8.7), (1.25, 0.8, 1.2)),
@@ -37,18 +40,16 @@ def paint_skin(skin: Skin, field: HeadField) -> tuple[Array, Array]:
         colour = mix(colour, colours.cheek, share * blob(side, centre, radii)[:, None])
     for k, share in enumerate((0.40, 0.26, 0.20, 0.16, 0.10, 0.05)):
         ring = skin.both_sides(skin.eye_rings[k])
-        colour[ring] = mix(colour[ring], LID_TINT, share)
+        colour[ring] = mix(colour[ring], lid, share)
     for k, share in LID_CREASE.items():
         count = EYE_LOOP // 2 + 1
         across = 1 - np.abs(np.linspace(-1, 1, count)) ** 4
         for ring in (skin.eye_rings[k][:count], skin.mirror[skin.eye_rings[k][:count]]):
-            colour[ring] = mix(
-                colour[ring], LID_TINT, (share * across * (field.anatomy.eye.crease > 0))[:, None]
-            )
+            colour[ring] = mix(colour[ring], lid, (share * across * (field.anatomy.eye.crease > 0))[:, None])
     colour *= _occlusion(skin, field, side)
     gloss = _paint_mouth(colour, skin, field)
     for k in range(-EYE_LINING, 0):
-        colour[skin.both_sides(skin.eye_rings[k])] = mix(*LID_LINING, (-k - 1) / 2)
+        colour[skin.both_sides(skin.eye_rings[k])] = colours.skin * mix(*LID_LINING, (-k - 1) / 2)
     return colour, gloss
 
 

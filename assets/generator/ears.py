@@ -3,7 +3,6 @@
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from generator.anatomy import Colour
 from generator.field import HeadField
 from generator.meshes import Mesh, strips
 from generator.vectors import mix, repeated, rotation, smoothstep
@@ -14,7 +13,6 @@ OUTLINE = (
 )  # fmt: skip
 """(forward, up), from the top over the back and the lobe."""
 CANAL = (0.22, -0.22)
-FLESH: Colour = (0.88, 0.50, 0.44)
 RINGS = (
     (1, 0, 0, 0), (0.97, 0.20, 0, 0), (0.90, 0.30, 0, 0), (0.81, 0.20, 0, 0), (0.72, 0.05, 0.08, 0),
     (0.62, 0, 0.30, 0), (0.50, 0, 0.26, 0), (0.40, 0, 0.02, -0.12), (0.26, 0, 0, -0.26),
@@ -47,6 +45,6 @@ def ear(field: HeadField) -> Mesh:
     local = (local - hinge) @ rotation((0, 1, 0), -33).T + hinge
     local = local @ rotation((1, 0, 0), -8).T @ rotation((0, 0, 1), -3).T * 1.14
     root = field.raycast(np.array([[0, -0.9, -0.55]]), np.array([[1.0, 0, 0]]), 12)[0]
-    colour = mix(field.anatomy.colours.skin, FLESH, 0.22)
+    colour = mix(field.anatomy.colours.skin, field.anatomy.colours.cheek, 0.3)
     local = local + root + np.array([0.16, 0.05, 0.05])
     return Mesh(local, triangles, repeated(tuple(colour), len(local))).welded()

@@ -35,20 +35,25 @@ GAZE = {
 def lid_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:
     """Return the motion of the lids in LID_SHAPES and in the four directions of gaze."""
     shapes = {
-        name: _lid_shape(character, deformer, deformer.lids(upper, lower, blink, lift=lift))
+        name: lid_shape(character, deformer, deformer.lids(upper, lower, blink, lift=lift))
         for name, (upper, lower, blink, lift) in LID_SHAPES.items()
     }
-    centre = np.array(character.anatomy.eye.centre)
-    eye = character.place("eyeL")
-    for name, (axis, degrees, upper, lower, shift) in GAZE.items():
-        lift = 0.03 if upper < 0 else 0.0
-        shape = _lid_shape(character, deformer, deformer.lids(upper, lower, shift=shift, lift=lift))
-        shape.parts["eyeL"] = (eye - centre) @ rotation(axis, degrees).T + centre - eye
-        shapes[name] = shape
-    return shapes
+    return shapes | {name: gaze_shape(character, deformer, name) for name in GAZE}
 
 
-def _lid_shape(character: Character, deformer: SkinDeformer, move: LidMove) -> Shape:
+def gaze_shape(character: Character, deformer: SkinDeformer, name: str, share: float = 1.0) -> Shape:
+    """Return a turn of the left eyeball by `share` of its angle in GAZE, with the lids that follow it."""
+    axis, degrees, upper, lower, shift = GAZE[name]
+    x, y = (share * s for s in shift)
+    lift = 0.03 if upper < 0 else 0.0
+    move = deformer.lids(share * upper, share * lower, shift=(x, y), lift=share * lift)
+    shape = lid_shape(character, deformer, move)
+    from_centre = character.place("eyeL") - np.array(character.anatomy.eye.centre)
+    shape.parts["eyeL"] = from_centre @ rotation(axis, share * degrees).T - from_centre
+    return shape
+
+
+def lid_shape(character: Character, deformer: SkinDeformer, move: LidMove) -> Shape:
     """Add to a motion of the lids that of the lashes: they go with their roots and tilt."""
     place, roots = character.place("lashL"), character.lash_roots
     margin = np.tile(np.arange(EYE_LOOP // 2 + 1), len(place) // (EYE_LOOP // 2 + 1))
@@ -72,13 +77,13 @@ def brow_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Array
         return columns(-0.12 * (1 - t), 1.15 * (1 - smoothstep(-0.05, 0.95, t)), -0.12 * (1 - t))
 
     return {
-        "browDownLeft": _brow(character, deformer, down),
-        "browOuterUpLeft": _brow(character, deformer, outer_up),
-        "browInnerUp": _brow(character, deformer, inner_up, both=True),
+        "browDownLeft": brow_shape(character, deformer, down),
+        "browOuterUpLeft": brow_shape(character, deformer, outer_up),
+        "browInnerUp": brow_shape(character, deformer, inner_up, both=True),
     }
 
 
-def _brow(
+def brow_shape(
     character: Character, deformer: SkinDeformer, motion: Callable[[Array], Array], both: bool = False
 ) -> Array:
     """Move the skin under the left brow by `motion` of the place along it (0 inner .. 1 outer end)."""

@@ -11,6 +11,7 @@ from generator.topology import MOUTH_LOOP
 from generator.vectors import Array, Vector, columns, mix, rotation, smoothstep
 
 OPEN_ANGLE = 17.5
+OPEN_SHIFT: Vector = (0, -0.35, 0.45)
 TONGUE_OUT_OPENS = 0.36
 """How far tongueOut opens the jaw, so that the tongue clears the teeth."""
 
@@ -56,19 +57,19 @@ def tongue_lips(lip: Lips) -> Array:
 def jaw_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:
     """Return jawOpen, jawForward, jawLeft, mouthClose and tongueOut."""
     jaw = Jaw(character, deformer)
-    open_ = jaw.moved(OPEN_ANGLE, (0, -0.35, 0.45))
+    open_ = jaw.moved(OPEN_ANGLE, OPEN_SHIFT)
     open_ = Shape(open_.skin + deformer.mouth(narrow), open_.parts)
     aside, forward = jaw.moved(shift=(0.55, 0, 0), yaw=4.5), jaw.moved(shift=(0, -0.12, 0.85))
     return {
         "jawOpen": open_,
-        "jawForward": Shape(forward.skin + _close(deformer, forward.skin, (0.5, 0.3, 0.4)), forward.parts),
-        "jawLeft": Shape(aside.skin + _close(deformer, aside.skin, (0.5, 0.5, 0.5)), aside.parts),
-        "mouthClose": Shape(_close(deformer, open_.skin, (0.4, 0.30, 0.06))),
+        "jawForward": Shape(forward.skin + seal(deformer, forward.skin, (0.5, 0.3, 0.4)), forward.parts),
+        "jawLeft": Shape(aside.skin + seal(deformer, aside.skin, (0.5, 0.5, 0.5)), aside.parts),
+        "mouthClose": Shape(seal(deformer, open_.skin, (0.4, 0.30, 0.06))),
         "tongueOut": _tongue_out(character, deformer, jaw),
     }
 
 
-def _close(deformer: SkinDeformer, opened: Array, upper_share: Vector) -> Array:
+def seal(deformer: SkinDeformer, opened: Array, upper_share: Vector) -> Array:
     """Return what brings both contact lines of `opened` together; the upper goes `upper_share` of the way."""
     moved = np.zeros_like(deformer.vertices)
     order = np.arange(MOUTH_LOOP)

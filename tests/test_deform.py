@@ -168,3 +168,13 @@ def test_not_a_number_leaves_no_trace() -> None:
     bad[3] = np.nan
     deformer.deform(bad)
     assert np.abs(deformer.deform(weights) - exact(rig, weights)).max() <= rounding(rig, weights)
+
+
+def test_twins_are_independent() -> None:
+    rig = mixed_rig()
+    deformer = Deformer(rig)
+    ones, halves = np.ones(rig.shape_count), np.full(rig.shape_count, 0.5)
+    first = deformer.deform(ones)
+    twin = deformer.twin()
+    assert np.abs(twin.deform(halves) - exact(rig, halves)).max() <= rounding(rig, halves)
+    assert deformer.deform(ones) is first

@@ -40,6 +40,10 @@ class Deformer:
         self._weights = self._base
         self._positions: Points = rig.neutral
 
+    def twin(self) -> "Deformer":
+        """Return a deformer for another pane of the same rig."""
+        return Deformer(self._rig)
+
     def deform(self, weights: Floats) -> Points:
         """Posed positions for weights (k,).
 

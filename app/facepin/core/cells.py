@@ -1,0 +1,163 @@
+"""The quads and triangles whose area vectors make the normals of a mesh, and what each adds where."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from facepin.core.arrays import Indices, Points
+from facepin.core.rig import Rig
+from facepin.core.topology import weld_map
+
+FLAT = 0.985
+"""Cosine of the angle (10 degrees) up to which two triangles may be taken for one quad."""
+CREASE = 0.5
+"""Cosine of the angle (60 degrees) between neutral normals up to which welded vertices are smoothed."""
+MOST_WELDED = 16
+"""Vertices in one place that are compared with each other; more are a heap, not a seam."""
+SLIVER = 0.02
+"""Cells below this share of their neighbours' size weigh as if they had it, lest they rule once opened."""
+
+Numbers = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """m quads and triangles that cover a mesh."""
+
+    diagonals: Numbers
+    """(2, 2, m) the two ends of one diagonal of each cell, and of the other; of a triangle, of two sides."""
+    sums: csr_array
+    """(n, m) float32, turns area vectors into normals of any length, in the neutral the angle-weighted."""
+
+
+def make_cells(rig: Rig) -> Cells:
+    """Cut the faces of a rig into as few cells as possible, and weigh them.
+
+    A vertex that a texture seam has split gets what all its copies get, unless they belong to a sharp edge.
+    """
+    quads, triangles = _cut(rig.corners, rig.face_sizes)
+    pairs, triangles = _paired(triangles, rig.neutral)
+    quads = np.hstack([quads, pairs])
+    diagonals = np.hstack([quads[[0, 2, 1, 3]], triangles[[0, 1, 0, 2]]]).reshape(2, 2, -1)
+    areas = area_vectors(rig.neutral.T, diagonals)
+    sums = _corner_weights(rig.neutral, quads, triangles, areas)
+    return Cells(diagonals, _welded(sums, areas, weld_map(rig)))
+
+
+def area_vectors(points: Points, diagonals: Numbers) -> Points:
+    """Twice the area vectors of cells.
+
+    Parameters
+    ----------
+    points : (3, n) float32
+        Coordinates: all x, all y, all z.
+    diagonals : (2, 2, m) int
+        See `Cells`.
+
+    Returns
+    -------
+    (3, m) float32
+    """
+    (a, b), (c, d) = diagonals
+    # Clipping never happens; asking for it spares numpy a check of every index.
+    u = points.take(b, axis=1, mode="clip")
+    u -= points.take(a, axis=1, mode="clip")
+    v = points.take(d, axis=1, mode="clip")
+    v -= points.take(c, axis=1, mode="clip")
+    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+
+
+def _cut(corners: Indices, sizes: Indices) -> tuple[Numbers, Numbers]:
+    """Cut every face into a fan of quads, and a triangle where its size is odd: (4, q) and (3, t)."""
+    starts = np.cumsum(sizes) - sizes
+    per_face = (sizes - 2) // 2
+    first = np.repeat(starts, per_face)
+    step = 2 * (np.arange(len(first)) - np.repeat(np.cumsum(per_face) - per_face, per_face))
+    odd = starts[sizes % 2 == 1]
+    last = odd + sizes[sizes % 2 == 1] - 1
+    quads = np.stack(
+        [corners[first], corners[first + step + 1], corners[first + step + 2], corners[first + step + 3]]
+    )
+    triangles = np.stack([corners[odd], corners[last - 1], corners[last]])
+    return quads.astype(np.intp), triangles.astype(np.intp)
+
+
+def _paired(triangles: Numbers, neutral: Points) -> tuple[Numbers, Numbers]:
+    """Take triangles (3, t) that follow each other and lie flat side by side for the quads they once were.
+
+    Most files hold triangles only, each quad cut in two: half as many cells are half the work on every frame.
+
+    Returns
+    -------
+    quads : (4, q), triangles : (3, t - 2 q)
+    """
+    first, second = triangles[:, :-1], triangles[:, 1:]
+    shared = first[:, None] == second  # (corner of first, corner of second, pair)
+    alone, other = np.argmin(shared.any(axis=1), axis=0), np.argmin(shared.any(axis=0), axis=0)
+    pair = np.arange(first.shape[1])
+    p, q, r = (first[(alone + step) % 3, pair] for step in range(3))
+    o = second[other, pair]
+    loop = np.stack([p, q, o, r])
+    # The second triangle must run along the shared edge the other way, and the quad must be flat and convex.
+    fits = (shared.sum(axis=(0, 1)) == 2) & (second[(other + 1) % 3, pair] == r)
+    sides = neutral[np.roll(loop, -1, axis=0)] - neutral[loop]
+    corners = np.cross(np.roll(sides, 1, axis=0), sides)
+    normal = corners[0] / np.maximum(np.linalg.norm(corners[0], axis=1, keepdims=True), 1e-30)
+    fits &= ((corners * normal).sum(axis=2) > FLAT * np.linalg.norm(corners, axis=2)).all(axis=0)
+    # In a run of triangles that could all pair up, pair the first two, the next two, …
+    begins = np.maximum.accumulate(np.where(fits, 0, pair + 1))
+    taken = np.flatnonzero(fits & ((pair - begins) % 2 == 0))
+    left = np.ones(triangles.shape[1], np.bool_)
+    left[taken] = left[taken + 1] = False
+    return loop[:, taken], triangles[:, left]
+
+
+def _corner_weights(neutral: Points, quads: Numbers, triangles: Numbers, areas: Points) -> csr_array:
+    """Angle of each cell at each corner over the length of its area vector, neutral, (n, m) float32."""
+    kinds = (quads, triangles)
+    at, before, after = (
+        np.concatenate([np.roll(cells, step, axis=0).ravel() for cells in kinds]) for step in (0, 1, -1)
+    )
+    numbers = np.split(np.arange(areas.shape[1]), [quads.shape[1]])
+    cell = np.concatenate([np.tile(own, len(cells)) for own, cells in zip(numbers, kinds, strict=True)])
+
+    points, count = neutral.astype(np.float64), len(neutral)
+    u, v = points[before] - points[at], points[after] - points[at]
+    angle = np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), (u * v).sum(axis=1))
+    size = np.linalg.norm(areas.astype(np.float64), axis=0)[cell]
+    usual = np.bincount(at, size, count) / np.maximum(np.bincount(at, minlength=count), 1)
+    size = np.maximum(size, SLIVER * usual[at])
+    weight = np.divide(angle, size, out=np.zeros_like(angle), where=size > 0)
+    return csr_array((weight.astype(np.float32), (at, cell)), shape=(count, areas.shape[1]))
+
+
+def _welded(sums: csr_array, areas: Points, same: Indices) -> csr_array:
+    """Give vertices that always coincide and face about the same way the cells of each other.
+
+    Parameters
+    ----------
+    sums : (n, m)
+        What the cells add to each vertex.
+    areas : (3, m) float32
+        Area vectors of the cells in the neutral.
+    same : (n,) int32
+        From `weld_map`.
+    """
+    order = np.argsort(same, kind="stable")
+    normals = sums @ areas.T.astype(np.float64)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    links = [np.stack([order, order])]
+    for step in range(1, MOST_WELDED):
+        pair = np.stack([order[:-step], order[step:]])
+        pair = pair[:, same[pair[0]] == same[pair[1]]]
+        if not pair.size:
+            break
+        pair = pair[:, (normals[pair[0]] * normals[pair[1]]).sum(axis=1) > CREASE]
+        links += [pair, pair[::-1]]
+    if len(links) == 1:
+        return sums
+    at, other = np.hstack(links)
+    link = csr_array((np.ones(len(at), np.float32), (at, other)), shape=(len(order), len(order)))
+    return csr_array(link @ sums)

@@ -11,9 +11,18 @@ import numpy as np
 
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
-from facepin.options import add_rig, add_solver, first_pose, open_with_bar, solver_choices
+from facepin.options import (
+    VIEWS,
+    add_rig,
+    add_solver,
+    first_pose,
+    open_with_bar,
+    picture_size,
+    solver_choices,
+)
 from facepin.session.solving import PinSolver
 from facepin.solvers.settings import plain_settings
+
 
 @dataclass(frozen=True)
 class Command:
@@ -104,20 +113,11 @@ def _render_options(parser: ArgumentParser) -> None:
     add_rig(parser)
     parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file (default: the neutral)")
     parser.add_argument(
-        "--size", type=_size, default=(1280, 720), metavar="WxH", help="pixels (default: 1280x720)"
+        "--size", type=picture_size, default=(1280, 720), metavar="WxH", help="pixels (default: 1280x720)"
     )
-    parser.add_argument("--view", choices=("front", "left", "right", "three-quarter"), default="front")
+    parser.add_argument("--view", choices=VIEWS, default="front")
     parser.add_argument("--transparent", action="store_true", help="leave out the background")
     parser.add_argument("--out", type=Path, required=True, metavar="PNG", help="where the picture goes")
-
-
-def _size(text: str) -> tuple[int, int]:
-    width, _, height = text.lower().partition("x")
-    if not (
-        width.isdecimal() and height.isdecimal() and 1 <= int(width) <= 32768 and 1 <= int(height) <= 32768
-    ):
-        raise ValueError(text)
-    return int(width), int(height)
 
 
 def _render(options: Namespace) -> None:
@@ -167,9 +167,22 @@ def _export(options: Namespace) -> None:
     write_model(rig, pose.weights, options.out)
 
 
+def _compare_options(parser: ArgumentParser) -> None:
+    from facepin.figures import compare
+
+    compare.add_options(parser)
+
+
+def _compare(options: Namespace) -> None:
+    from facepin.figures import compare
+
+    print(*compare.run(options), sep="\n")
+
+
 COMMANDS: dict[str, Command] = {
     "info": Command("say what is in a rig", _info_options, _info),
     "solve": Command("turn pins into weights and print them as JSON", _solve_options, _solve),
     "render": Command("draw one picture of a pose", _render_options, _render),
+    "compare": Command("put solvers side by side: pictures, charts, poses", _compare_options, _compare),
     "export": Command("write the posed face as a model", _export_options, _export),
 }

@@ -1,9 +1,10 @@
 """What several commands share: options, and opening what they name."""
 
 import sys
-from argparse import ArgumentParser
+from argparse import ArgumentParser, ArgumentTypeError
 from pathlib import Path
 
+from facepin.core.camera import View
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
@@ -14,6 +15,9 @@ from facepin.solvers.settings import parse_settings
 
 BUILTIN = "faces/ada.npz"
 """The face that is there when no other is named."""
+VIEWS: tuple[View, ...] = ("front", "left", "right", "three-quarter")
+"""From where pictures may be taken."""
+LARGEST_PICTURE = 32768
 
 
 def open_with_bar(path: Path | None, neutral: str | None = None) -> Rig:
@@ -75,11 +79,20 @@ def add_rig(parser: ArgumentParser) -> None:
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
 
 
-def add_solver(parser: ArgumentParser, default: str) -> None:
-    """Add --solver, --set and --limits."""
+def picture_size(text: str) -> tuple[int, int]:
+    """Read WxH, the width and height of a picture in pixels."""
+    width, _, height = text.lower().partition("x")
+    if not all(side.isdecimal() and 1 <= int(side) <= LARGEST_PICTURE for side in (width, height)):
+        raise ArgumentTypeError(f"found '{text}', allowed: WIDTHxHEIGHT, each 1 to {LARGEST_PICTURE}")
+    return int(width), int(height)
+
+
+def add_solver(parser: ArgumentParser, default: str, flag: str = "--solver") -> None:
+    """Add --solver (or another flag for it), --set and --limits."""
     keys = ", ".join(SOLVERS)
     parser.add_argument(
-        "--solver",
+        flag,
+        dest="solver",
         default=default,
         metavar="KEY",
         help=f"{keys}; several with commas, or all (default: {default})",

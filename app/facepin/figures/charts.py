@@ -1,0 +1,333 @@
+"""The style of all charts, and the paper's charts of a comparison: sliders, weights, errors.
+
+Figures are made with matplotlib's objects, never with pyplot: nothing is kept between them and no window
+system is touched.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from facepin.core.arrays import Floats
+from facepin.core.measures import ACTIVE, LIMIT_SLACK, weight_errors
+from facepin.figures.comparison import Comparison
+from facepin.files.atomic import atomic_write
+from facepin.resources import resource
+from facepin.solvers.colours import INKS, REFERENCE, Ink
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+DPI = 200
+TEXT, DIM, FAINT, TRACK, ALARM = "#16181d", "#5f6368", "#b4b8bd", "#e9ebee", "#b3261e"
+MOST_SLIDERS = 28
+MOST_NAMES = 70
+"""With more shapes than this, charts name only the strongest."""
+STRETCH = 2.5
+"""Weights beyond this are shown on a scale that is even up to 1 and logarithmic beyond."""
+SLIDER_RANGE = (-1.0, 2.0)
+"""Bars of sliders are cut here; the number says how far they go."""
+
+
+@contextmanager
+def chart_style() -> Iterator[None]:
+    """Make and save figures in one look: for all charts of the program."""
+    from matplotlib import rc_context
+
+    look: Any = {
+        "font.family": _font_family(),
+        "font.size": 8.5,
+        "text.color": TEXT,
+        "axes.edgecolor": FAINT,
+        "axes.labelcolor": DIM,
+        "axes.linewidth": 0.7,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.titlesize": 9.5,
+        "axes.titleweight": "bold",
+        "axes.titlelocation": "left",
+        "axes.axisbelow": True,
+        "axes.unicode_minus": True,
+        "grid.color": TRACK,
+        "grid.linewidth": 0.7,
+        "xtick.color": FAINT,
+        "ytick.color": FAINT,
+        "xtick.labelcolor": DIM,
+        "ytick.labelcolor": DIM,
+        "xtick.major.width": 0.7,
+        "ytick.major.width": 0.7,
+        "legend.frameon": False,
+        "savefig.facecolor": "white",
+        "svg.hashsalt": "facepin",
+    }
+    with rc_context(look):
+        yield
+
+
+@cache
+def _font_family() -> str:
+    """Make the program's own font known to matplotlib."""
+    from matplotlib.font_manager import fontManager
+
+    for weight in ("Regular", "Bold"):
+        fontManager.addfont(str(resource("assets", f"fonts/Roboto-{weight}.ttf")))
+    return "Roboto"
+
+
+def write_chart(folder: Path, name: str, figure: "Figure") -> list[Path]:
+    """Write a figure as name.png and name.svg and return their paths; the same figure gives the same bytes.
+
+    Raises
+    ------
+    FacepinError
+        If they cannot be written.
+    """
+    paths = []
+    with chart_style():
+        for kind in ("png", "svg"):
+            file = BytesIO()
+            figure.savefig(file, format=kind, dpi=DPI, metadata={"Date": None} if kind == "svg" else None)
+            figure.set_layout_engine("none")  # it is laid out now
+            paths.append(folder / f"{name}.{kind}")
+            atomic_write(paths[-1], file.getvalue())
+    return paths
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """One set of weights in a chart."""
+
+    title: str
+    ink: Ink
+    weights: Floats
+    """(k,)"""
+    remark: str = ""
+
+
+def series_of(comparison: Comparison) -> list[Series]:
+    """Return what charts of a comparison show: the reference, if there is one, and every answer."""
+    found = []
+    if comparison.reference is not None:
+        found.append(Series("Reference", REFERENCE, comparison.reference))
+    for answer in comparison.answers:
+        remark = "" if answer.e_rms is None else f"$E_{{RMS}}$ {number(answer.e_rms)}"
+        found.append(Series(answer.title, INKS[answer.key], answer.weights, remark))
+    return found
+
+
+def number(value: float) -> str:
+    """Return a figure with three digits that matter, as people write it."""
+    if value == 0:
+        return "0"
+    size = abs(value)
+    if size >= 1e5 or size < 1e-3:
+        return f"{value:.1e}"
+    return f"{value:,.{max(2 - int(np.floor(np.log10(size))), 0)}f}"
+
+
+def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]) -> "Figure":
+    """Draw the sliders of several sets of weights side by side (Figure 3): name, bar and number.
+
+    Rows are the same in all panels: the shapes that any of them uses most, at most `MOST_SLIDERS`.
+    """
+    from matplotlib.figure import Figure
+
+    rows = strongest([each.weights for each in series], MOST_SLIDERS)
+    low, high = _slider_reach(limits, series)
+    # Places in inches: what has to line up in every row is too much for an automatic layout.
+    name_width, bar_width, number_width, top, bottom = 1.45, 1.25, 0.65, 0.45, 0.55
+    width = name_width + len(series) * (bar_width + number_width)
+    inner = 0.2 * max(len(rows), 1)
+    height = top + inner + bottom
+    with chart_style():
+        figure = Figure((width, height))
+        for number_, each in enumerate(series):
+            left = name_width + number_ * (bar_width + number_width)
+            panel = figure.add_axes((left / width, bottom / height, bar_width / width, inner / height))
+            _sliders(panel, rows, limits, each, (low, high))
+            panel.set_xlim(low, high)
+            panel.set_ylim(len(rows) - 0.4, -0.6)
+            labels = [names[j] for j in rows.tolist()] if number_ == 0 else [""] * len(rows)
+            panel.set_yticks(range(len(rows)), labels, color=TEXT, fontsize=8)
+            panel.tick_params(axis="y", length=0)
+            panel.set_xticks([value for value in (-1, 0, 1, 2) if low <= value <= high])
+            panel.spines["left"].set_visible(False)
+            hidden = np.delete(np.abs(each.weights), rows)
+            panel.set_xlabel(_rest(hidden), fontsize=7.5, loc="left")
+    return figure
+
+
+def _slider_reach(limits: Floats, series: Sequence[Series]) -> tuple[float, float]:
+    """Return the lowest and highest weight that bars have room for."""
+    everything = np.concatenate([each.weights for each in series] + [limits.ravel(), np.array([0.0, 1.0])])
+    low, high = max(float(everything.min()), SLIDER_RANGE[0]), min(float(everything.max()), SLIDER_RANGE[1])
+    return low - 0.03 * (high - low), high + 0.03 * (high - low)
+
+
+def _rest(hidden: Floats) -> str:
+    if not len(hidden):
+        return ""
+    largest = float(hidden.max())
+    return f"and {len(hidden)} more, " + (f"up to ±{largest:.2f}" if largest >= 0.005 else "all at 0")
+
+
+def _sliders(
+    panel: "Axes", rows: NDArray[np.intp], limits: Floats, series: Series, reach: tuple[float, float]
+) -> None:
+    at = np.arange(len(rows))
+    weights, (low, high) = series.weights[rows], limits[rows].T
+    shown = np.clip(weights, *reach)
+    panel.barh(at, high - low, left=low, height=0.56, color=TRACK)
+    panel.barh(at, shown, height=0.56, color=series.ink.colour)
+    panel.axvline(0, color=FAINT, linewidth=0.7, zorder=0)
+    for cut, mark in ((weights < reach[0], "<"), (weights > reach[1], ">")):
+        panel.plot(shown[cut], at[cut], mark, color=ALARM, markersize=4, clip_on=False)
+    for row, weight in enumerate(weights.tolist()):
+        outside = not low[row] - LIMIT_SLACK <= round(weight, 2) <= high[row] + LIMIT_SLACK
+        panel.annotate(
+            _weight(weight),
+            (1.0, row),
+            (31, 0),
+            xycoords=panel.get_yaxis_transform(),
+            textcoords="offset points",
+            ha="right",
+            va="center",
+            fontsize=7.5,
+            color=ALARM if outside else (TEXT if abs(weight) > ACTIVE else FAINT),
+            fontweight="bold" if outside else "normal",
+            annotation_clip=False,
+        )
+    panel.set_title(series.title, color=series.ink.colour)
+
+
+def _weight(weight: float) -> str:
+    """Return a weight as a slider shows it."""
+    size = abs(weight)
+    text = f"{weight:.2f}" if size < 100 else f"{weight:,.0f}" if size < 1e5 else f"{weight:.0e}"
+    return text.replace("-0.00", "0.00").replace("-", "−")
+
+
+def weight_bars(names: Sequence[str], limits: Floats, series: Sequence[Series]) -> "Figure":
+    """Draw all weights as bars, one row for each set of weights (the charts of Figure 4)."""
+    from matplotlib.figure import Figure
+
+    k = len(names)
+    with chart_style():
+        figure = Figure((_width(k), 1.2 * len(series) + 1.1), layout="constrained")
+        rows = figure.subplots(len(series), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+        at = np.arange(k)
+        for row, each in zip(rows, series, strict=True):
+            row.axhspan(
+                float(limits[:, 0].min(initial=0)),
+                float(limits[:, 1].max(initial=1)),
+                color="#f4f5f7",
+                zorder=0,
+            )
+            row.bar(at, each.weights, width=0.78, color=each.ink.colour)
+            row.axhline(0, color=FAINT, linewidth=0.7)
+            row.set_title(each.title, color=each.ink.colour)
+            row.set_title(each.remark, loc="right", color=DIM, fontweight="normal", fontsize=8.5)
+        _value_scale(rows[0], [each.weights for each in series])
+        rows[-1].set_xlim(-0.8, k - 0.2)
+        for row in rows[:-1]:
+            row.tick_params(axis="x", length=0)
+        _name_shapes(rows[-1], names, [each.weights for each in series])
+        figure.supylabel("weight", fontsize=8.5, color=DIM)
+    return figure
+
+
+def error_charts(names: Sequence[str], reference: Floats, series: Sequence[Series]) -> "Figure":
+    """Draw |w − w̄| of every shape, as marks and as lines (Figure 6), with E_RMS (Eq. 9) in the legend."""
+    from matplotlib.figure import Figure
+
+    k = len(names)
+    errors = [weight_errors(each.weights, reference) for each in series]
+    with chart_style():
+        figure = Figure((_width(k), 5.4), layout="constrained")
+        marks, lines = figure.subplots(2, 1, sharex=True, sharey=True)
+        at = np.arange(k)
+        for later, (each, error) in enumerate(zip(series, errors, strict=True)):
+            label = f"{each.title}   {each.remark}"
+            marks.plot(
+                at,
+                error,
+                each.ink.marker,
+                color=each.ink.colour,
+                markersize=4.2,
+                alpha=0.85,
+                label=label,
+                markeredgewidth=0,
+            )
+            # Wide lines below narrow ones: solvers that agree are still seen apart.
+            lines.plot(at, error, color=each.ink.colour, linewidth=1.1 + 0.4 * (len(series) - 1 - later))
+        for axes in (marks, lines):
+            axes.grid(axis="y")
+            axes.set_ylabel("$|w - \\bar{w}|$")
+        _value_scale(marks, errors)
+        top = marks.get_ylim()[1]
+        marks.set_ylim(-0.03 * min(top, STRETCH), top)
+        figure.legend(
+            loc="outside upper left", ncols=min(len(series), max(int(_width(k) / 2.3), 1)), fontsize=8.5
+        )
+        lines.set_xlim(-0.8, k - 0.2)
+        _name_shapes(lines, names, errors)
+    return figure
+
+
+def strongest(sets: Sequence[Floats], most: int) -> NDArray[np.intp]:
+    """Return at most `most` shapes that sets of weights use, by turns the strongest of each set.
+
+    A set with huge weights does not push out what another one uses.
+    """
+    orders = [np.argsort(-np.abs(weights), kind="stable") for weights in sets]
+    taken: dict[int, None] = {}
+    for rank in range(len(orders[0])):
+        for order, weights in zip(orders, sets, strict=True):
+            if abs(weights[order[rank]]) > ACTIVE and len(taken) < most:
+                taken.setdefault(int(order[rank]))
+    return np.array(list(taken), np.intp)
+
+
+def _width(k: int) -> float:
+    """Width in inches of a chart with a place for each of k shapes."""
+    return float(np.clip(0.145 * k, 6.5, 13.0))
+
+
+def _value_scale(axes: "Axes", values: Sequence[Floats]) -> None:
+    largest = max((float(np.abs(each).max(initial=0.0)) for each in values), default=0.0)
+    if largest <= STRETCH:
+        return
+    from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+    axes.set_yscale("symlog", linthresh=1.0, linscale=1.5)
+    axes.margins(y=0.08)
+    lowest = min(float(each.min(initial=0.0)) for each in values)
+    highest = max(float(each.max(initial=0.0)) for each in values)
+    ticks = [-tick for tick in reversed(_ticks(-lowest))] + [0.0, *_ticks(highest)]
+    axes.yaxis.set_major_locator(FixedLocator(ticks))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}".replace("-", "−")))
+
+
+def _ticks(largest: float) -> list[float]:
+    """Return the ticks on one side of 0: 1, and the last power of ten."""
+    power = int(np.floor(np.log10(largest))) if largest > 0 else -1
+    return [1.0, 10.0**power] if power > 0 else [1.0]
+
+
+def _name_shapes(axes: "Axes", names: Sequence[str], sets: Sequence[Floats]) -> None:
+    """Name the shapes below a chart: all, or the strongest where there are too many."""
+    if len(names) <= MOST_NAMES:
+        at = np.arange(len(names))
+    else:
+        at = np.sort(strongest(sets, MOST_NAMES // 2))
+    axes.set_xticks(at, [names[j] for j in at.tolist()], rotation=90, fontsize=6.5)
+    axes.tick_params(axis="x", length=2)

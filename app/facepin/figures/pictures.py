@@ -1,0 +1,174 @@
+"""Faces with their pins, drawn without a window, and sheets of several of them with titles."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from facepin.core.arrays import Points
+from facepin.core.camera import Camera, View, frame_points
+from facepin.core.measures import moves
+from facepin.core.normals import NormalField
+from facepin.core.pose import Pin
+from facepin.core.rig import Rig
+from facepin.resources import resource
+
+if TYPE_CHECKING:
+    import moderngl
+    from PIL.ImageFont import FreeTypeFont
+
+Image = NDArray[np.uint8]
+
+SUPERSAMPLING = 2
+MARGIN = 0.14
+"""Share of a pane left free on each side of the face at rest, for it to move into."""
+STIRRED = 0.02
+"""A pane shows the part of the face that shapes move by more than this share of its height."""
+
+
+class Painter:
+    """Draws poses of one rig, all seen by one camera.  Give it back with `release`."""
+
+    def __init__(
+        self, ctx: "moderngl.Context", rig: Rig, size: tuple[int, int], view: View = "front"
+    ) -> None:
+        """Look at a rig in pictures of `size` (width, height)."""
+        from facepin.gpu.markers import MarkerLayer
+        from facepin.gpu.scene import PaneMesh, Scene
+
+        self.size = size
+        self.camera = face_camera(rig, size, view)
+        self._rig = rig
+        self._scene = Scene(ctx, rig)
+        self._mesh = PaneMesh(self._scene)
+        self._markers = MarkerLayer(ctx)
+        self._normals = NormalField(rig)
+        while not self._scene.refined:
+            self._scene.refine()
+
+    def paint(self, positions: Points, pins: tuple[Pin, ...] = ()) -> Image:
+        """Return a picture of a posed face, (h, w, 4) uint8, with a marker per pin and a line to its goal."""
+        from facepin.gpu.markers import Markers, MarkerState
+        from facepin.gpu.picture import draw_picture
+
+        self._mesh.upload(positions, self._normals.normals(positions))
+        markers = Markers(
+            positions[[pin.vertex for pin in pins]],
+            np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
+            np.full(len(pins), MarkerState.SELECTED, np.uint8),
+        )
+        scale = SUPERSAMPLING * max(self.size[1] / 600, 0.5)
+        return draw_picture(
+            self._mesh,
+            self.camera,
+            self.size,
+            samples=0,
+            supersampling=SUPERSAMPLING,
+            overlay=lambda canvas, framing: self._markers.draw_framed(canvas, framing, markers, scale=scale),
+        )
+
+    def release(self) -> None:
+        """Give the graphics memory back."""
+        self._markers.release()
+        self._mesh.release()
+        self._scene.release()
+
+
+def face_camera(rig: Rig, size: tuple[int, int], view: View) -> Camera:
+    """Return a camera that sees the part of the neutral that shapes move, all of it if they move nothing."""
+    whole = frame_points(rig.neutral, size[0] / size[1], Camera(radius=0.0).looking(view))
+    stirred = np.zeros(rig.vertex_count, np.bool_)
+    for j in range(rig.shape_count):
+        delta = rig.deltas[:, [j]].toarray().reshape(-1, 3)
+        stirred |= moves(delta, np.zeros_like(delta)) > STIRRED * rig.height
+    if np.count_nonzero(stirred) < 3:
+        return whole
+    return frame_points(rig.neutral[stirred], size[0] / size[1], whole, MARGIN)
+
+
+@dataclass(frozen=True, eq=False)
+class Pane:
+    """One picture of a sheet, with what stands over and under it."""
+
+    image: Image
+    title: str
+    subtitle: str = ""
+    lines: tuple[str, ...] = ()
+    """What was measured, under the picture."""
+    colour: str = ""
+    """Of the mark before the title, #rrggbb."""
+
+
+def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "") -> Image:
+    """Return panes side by side on white paper, (h, w, 3) uint8.
+
+    Parameters
+    ----------
+    panes : sequence of Pane
+        Pictures of one size.
+    columns : int
+        Panes in a row; 0 for as many as look well.
+    footer : str
+        What made the sheet, in small letters at the bottom.
+    """
+    from PIL import Image as Pillow
+    from PIL import ImageDraw
+
+    columns = min(columns or _columns(len(panes)), len(panes))
+    height, width = panes[0].image.shape[:2]
+    em = max(width / 24, 9.0)
+    gap = round(0.8 * em)
+    bold, plain, small = _font("Bold", 1.1 * em), _font("Regular", 0.86 * em), _font("Regular", 0.72 * em)
+    line = 1.22 * em
+    top = round((3.4 if any(pane.subtitle for pane in panes) else 2.2) * em)
+    bottom = round(line * max(len(pane.lines) for pane in panes) + 0.5 * em)
+    rows = -(-len(panes) // columns)
+    paper = Pillow.new(
+        "RGB",
+        (
+            columns * width + (columns + 1) * gap,
+            rows * (top + height + bottom) + gap + (round(1.4 * em) if footer else 0),
+        ),
+        "white",
+    )
+    draw = ImageDraw.Draw(paper)
+    for at, pane in enumerate(panes):
+        x = gap + (at % columns) * (width + gap)
+        y = (at // columns) * (top + height + bottom) + round(0.5 * em)
+        left: float = x
+        if pane.colour:
+            draw.rounded_rectangle((x, y + 0.2 * em, x + 0.8 * em, y + 1.0 * em), 0.18 * em, pane.colour)
+            left += 1.25 * em
+        draw.text((left, y), pane.title, "#16181d", bold)
+        draw.text((x, y + 1.5 * em), _shortened(pane.subtitle, plain, width), "#5f6368", plain)
+        below = y + top - round(0.5 * em)
+        paper.paste(Pillow.fromarray(pane.image[..., :3]), (x, below))
+        for number, text in enumerate(pane.lines):
+            draw.text((x, below + height + 0.35 * em + number * line), text, "#33363c", plain)
+    if footer:
+        words = _shortened(footer, small, paper.width - 2 * gap)
+        draw.text((gap, paper.height - gap - 0.7 * em), words, "#80868b", small)
+    return np.asarray(paper)
+
+
+def _columns(count: int) -> int:
+    """Return into how many columns panes go: one row up to five, then rows as even as can be."""
+    rows = -(-count // 5)
+    return -(-count // rows)
+
+
+def _font(weight: str, size: float) -> "FreeTypeFont":
+    from PIL import ImageFont
+
+    return ImageFont.truetype(str(resource("assets", f"fonts/Roboto-{weight}.ttf")), size)
+
+
+def _shortened(text: str, font: "FreeTypeFont", width: float) -> str:
+    """Cut a text that is too long for its place."""
+    if font.getlength(text) <= width:
+        return text
+    while text and font.getlength(text + "…") > width:
+        text = text[:-1]
+    return text.rstrip(" ,") + "…"

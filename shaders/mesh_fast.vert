@@ -1,6 +1,6 @@
 #version 330 core
 // A posed face with its light computed at the vertices: where triangles are a few pixels large it looks like
-// mesh.frag, and costs a fifth without a graphics card.  For matt, closed surfaces.
+// mesh.frag, and costs half without a graphics card.  Not for what is glossy.
 
 #include "colour.glsl"
 #include "studio.glsl"
@@ -10,7 +10,7 @@ uniform mat4 to_clip;
 uniform vec3 sky;
 uniform vec3 tint;
 uniform float roughness;
-uniform float facing;   // -1 where triangles are wound inside out
+uniform float facing;   // 1 when front sides are drawn, -1 when back sides are
 
 in vec3 position;
 in vec3 normal;

@@ -49,6 +49,14 @@ def ball(
     )
 
 
+def bowl(rings: int = 24) -> Rig:
+    """The front half of the ball, open at the back: both its sides can be seen."""
+    whole = ball(rings)
+    corners = whole.triangles[(whole.neutral[whole.triangles, 2] > -1e-6).all(axis=1)].ravel()
+    sizes = np.full(len(corners) // 3, 3)
+    return build_rig("bowl", whole.neutral, corners, sizes, [("move", np.ones_like(whole.neutral))])
+
+
 def camera(rig: Rig) -> Camera:
     """Sees the whole rig from the front."""
     return frame_points(rig.neutral, 1.0)

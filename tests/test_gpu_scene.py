@@ -1,14 +1,17 @@
 """A face on the graphics card: what is sent, where it is drawn, and that it always looks the same."""
 
+from collections.abc import Callable
+
 import moderngl
 import numpy as np
 import pytest
 
 from facepin.core.camera import Viewport
+from facepin.core.rig import Rig
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
 from facepin.gpu.scene import PaneMesh, Scene
-from gpu_help import SIZE, WHOLE, ball, ball_normals, camera, draw, drawn
+from gpu_help import SIZE, WHOLE, ball, ball_normals, bowl, camera, draw, drawn
 
 
 def test_the_same_arrays_are_sent_once(gl: moderngl.Context) -> None:
@@ -101,10 +104,15 @@ def test_an_inside_out_file_looks_like_any_other(gl: moderngl.Context) -> None:
     assert np.abs(pictures[3] - pictures[1]).mean() < 0.2
 
 
-def test_light_at_vertices_looks_like_light_at_pixels(gl: moderngl.Context) -> None:
-    rig = ball(64)
+@pytest.mark.parametrize("turn", [0.0, 2.5])
+@pytest.mark.parametrize("make", [lambda: ball(64), lambda: bowl(64)], ids=["closed", "sheet"])
+def test_light_at_vertices_looks_like_light_at_pixels(
+    gl: moderngl.Context, make: Callable[[], Rig], turn: float
+) -> None:
+    rig = make()
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
-        fast, fine = (draw(mesh, canvas, camera(rig), fine=fine).astype(int) for fine in (False, True))
+        view = camera(rig).orbited(turn, 0.0)
+        fast, fine = (draw(mesh, canvas, view, fine=fine).astype(int) for fine in (False, True))
     assert np.abs(fast - fine).max() <= 6
 
 

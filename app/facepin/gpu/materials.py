@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
@@ -53,6 +54,13 @@ class Run:
     hidden: Literal["back", "front"] | None
     """The side that is never seen, so that triangles showing it are left out."""
 
+    @property
+    def sides(self) -> tuple["Run", ...]:
+        """The same triangles as runs of which one side each is drawn."""
+        if self.hidden is not None:
+            return (self,)
+        return replace(self, hidden="back"), replace(self, hidden="front")
+
 
 def material(part: Part, coloured: bool) -> Material | None:
     """Return what a part looks like, or None if it is better not seen.
@@ -92,6 +100,16 @@ def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
                 continue
         runs.append(run)
     return tuple(runs)
+
+
+def cull_hidden(ctx: moderngl.Context, run: Run) -> None:
+    """Draw with depth from now on, without the side of a run that is never seen."""
+    if run.hidden is None:
+        ctx.enable_only(moderngl.DEPTH_TEST)
+    else:
+        ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        ctx.front_face = "ccw"
+        ctx.cull_face = run.hidden
 
 
 def vertex_albedo(rig: Rig) -> NDArray[np.float16]:

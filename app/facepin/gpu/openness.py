@@ -16,11 +16,11 @@ from facepin.core.rig import Rig
 from facepin.core.topology import DrawOrder
 from facepin.gpu.canvas import release_framebuffer
 from facepin.gpu.framing import column_major
-from facepin.gpu.materials import Run
+from facepin.gpu.materials import Run, cull_hidden
 from facepin.gpu.programs import load_program
 
-DIRECTIONS = 48
-"""Views per pose."""
+DIRECTIONS, OPENED_DIRECTIONS = 40, 20
+"""Views of the neutral, and of the open mouth."""
 RESOLUTION = 256
 """Width and height of a depth map."""
 LIFT = 0.006
@@ -65,13 +65,13 @@ class Openness:
         maps = _DepthMaps(ctx, rig.vertex_count, runs, indices)
         try:
             arrived = []
-            for positions in (rig.neutral, opened(rig)):
+            for positions, count in ((rig.neutral, DIRECTIONS), (opened(rig), OPENED_DIRECTIONS)):
                 # In front of the surface and behind it.
                 light = np.zeros((2, rig.vertex_count), np.float32)
                 total = np.full((2, rig.vertex_count), 1e-6, np.float32)
                 normals = vertex_normals(positions, rig.triangles)
                 maps.take(positions)
-                for step, direction in enumerate(directions(DIRECTIONS)):
+                for step, direction in enumerate(directions(count)):
                     facing = normals @ direction.astype(np.float32)
                     lift = np.where(facing < 0, -LIFT, LIFT).astype(np.float32)
                     weight = np.maximum([facing, -facing], 0)
@@ -115,9 +115,9 @@ class _DepthMaps:
         self._program["to_clip"] = column_major(matrix)
         self._framebuffer.use()
         self._framebuffer.clear(depth=1.0)
-        self._ctx.enable_only(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
         for run in self._runs:
+            cull_hidden(self._ctx, run)
             self._mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
         nearest = np.frombuffer(self._depth.read(), np.float32).reshape(RESOLUTION, RESOLUTION)
         x, y, z = axes.astype(np.float32) @ (self._points + lift).T

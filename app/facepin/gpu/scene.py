@@ -10,7 +10,7 @@ from facepin.core.topology import draw_order
 from facepin.gpu.background import Background
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
-from facepin.gpu.materials import material_runs, vertex_albedo
+from facepin.gpu.materials import cull_hidden, material_runs, vertex_albedo
 from facepin.gpu.openness import Openness
 from facepin.gpu.programs import load_program
 
@@ -117,8 +117,8 @@ class PaneMesh:
         camera : Camera
             Sees the face.
         fine : bool
-            Compute light at every pixel; otherwise at the vertices of matt, closed surfaces, which is what
-            keeps a drag smooth on a machine without a graphics card.
+            Compute light at every pixel; otherwise at the vertices of what is not glossy, which keeps a drag
+            smooth on a machine without a graphics card.
         """
         framing = frame(camera, viewport, canvas.size[1])
         self.draw_framed(canvas, framing, fine=fine)
@@ -133,20 +133,17 @@ class PaneMesh:
             program["sky"] = tuple(framing.to_view[:3, 1])
         scene.fine_program["ray_of_pixel"] = framing.ray_of_pixel
         ctx.depth_func = "<"
-        ctx.front_face = "ccw"
         for run in scene.runs:
-            if run.hidden is None:
-                ctx.enable_only(moderngl.DEPTH_TEST)
-            else:
-                ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-                ctx.cull_face = run.hidden
-            program, mesh = scene.fine_program, self._fine
-            if run.hidden is not None and run.roughness >= GLOSSY and not fine:
-                program, mesh = scene.fast_program, self._fast
-                program["facing"] = 1.0 if run.hidden == "back" else -1.0
+            fast = run.roughness >= GLOSSY and not fine
+            program, mesh = (scene.fast_program, self._fast) if fast else (scene.fine_program, self._fine)
             program["tint"] = run.tint
             program["roughness"] = run.roughness
-            mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
+            # At a vertex it is not known which side is seen, so of sheets each side is drawn by itself.
+            for piece in run.sides if fast else (run,):
+                if fast:
+                    program["facing"] = 1.0 if piece.hidden == "back" else -1.0
+                cull_hidden(ctx, piece)
+                mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
 
     def release(self) -> None:
         """Give the graphics memory back."""

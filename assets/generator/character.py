@@ -7,11 +7,11 @@ from scipy.spatial import cKDTree
 
 from generator.anatomy import Anatomy
 from generator.brows import brow, lashes
-from generator.colours import PART_GLOSS, paint_skin
+from generator.colours import PART_GLOSS, paint_skin, shade_hairline
 from generator.ears import ear
 from generator.eyes import eyeball
 from generator.field import HeadField
-from generator.hair import hair
+from generator.hair import hair, hairline
 from generator.meshes import Mesh
 from generator.mouth_parts import dental_arch, tongue
 from generator.shirt import shirt
@@ -93,7 +93,8 @@ def build_character(anatomy: Anatomy) -> Character:
     field = HeadField(anatomy)
     skin = build_skin(field)
     colour, gloss = paint_skin(skin, field)
-    colours, mouth = anatomy.colours, anatomy.mouth
+    colours, mouth, locks = anatomy.colours, anatomy.mouth, hair(field)
+    colour = shade_hairline(colour, skin, hairline(locks), colours.hair)
     teeth_z = skin.vertices[skin.mouth_rings[0]][0, 2] - 0.50
     upper_teeth, upper_gum = dental_arch(teeth_z, mouth.height - 0.22, True, colours)
     lower_teeth, lower_gum = dental_arch(teeth_z - 0.24, mouth.height - 0.02, False, colours)
@@ -110,7 +111,7 @@ def build_character(anatomy: Anatomy) -> Character:
         "teethLower": Mesh(lower_teeth.vertices, lower_teeth.triangles, lower_teeth.colours * 0.97),
         "gums": gums,
         "tongue": tongue(teeth_z, mouth.height - 0.85, colours),
-        "hair": hair(field),
+        "hair": locks,
         "shirt": shirt(anatomy.skull, colours),
     }
     for name, mesh in left.items():

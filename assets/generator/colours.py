@@ -1,6 +1,7 @@
 """Paints the skin: blush, lips, lids, and baked occlusion of the sky in folds."""
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from generator.anatomy import Colour
 from generator.field import HeadField
@@ -21,6 +22,7 @@ THROAT: Colour = (0.2, 0.04, 0.04)
 OCCLUDED: Colour = (0.79, 0.63, 0.59)
 """Skin that sees no sky is multiplied by this: dark and warm."""
 PROBES = ((0.15, 0.30), (0.4, 0.30), (0.9, 0.28), (1.7, 0.25))
+HAIRLINE_SHADE, HAIRLINE_WIDTH = 0.75, 0.75
 PART_GLOSS = -1.0
 """Gloss of vertices that take their roughness from their part."""
 
@@ -51,6 +53,13 @@ def paint_skin(skin: Skin, field: HeadField) -> tuple[Array, Array]:
     for k in range(-EYE_LINING, 0):
         colour[skin.both_sides(skin.eye_rings[k])] = colours.skin * mix(*LID_LINING, (-k - 1) / 2)
     return colour, gloss
+
+
+def shade_hairline(colour: Array, skin: Skin, line: Array, hair: Colour) -> Array:
+    """Return skin colours that take on some of the hair's along its edge, as short hair would give them."""
+    distance, _ = cKDTree(line).query(skin.vertices)
+    share = HAIRLINE_SHADE * np.exp(-((np.asarray(distance) / HAIRLINE_WIDTH) ** 2))
+    return mix(colour, colour * mix(1, hair, 0.7), share[:, None])
 
 
 def _occlusion(skin: Skin, field: HeadField, side: Array) -> Array:

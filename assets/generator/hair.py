@@ -42,14 +42,27 @@ def hair(field: HeadField) -> Mesh:
     vertices = (vertices + vertices[mirror] * MIRROR) / 2
     starts = [vertices[i * AROUND : (i + 1) * AROUND] for i in range(ROWS)]
     vertices, triangles = strips(starts, closed=True)
-    strands = 1 + 0.10 * np.sin(np.tile(angle, ROWS) * 18)
-    colour = np.array(field.anatomy.colours.hair) * strands[:, None]
+    shade = np.concatenate([_shade(angle, min(i / (ROWS - 2), 1.0)) for i in range(ROWS)])
+    colour = np.array(field.anatomy.colours.hair) * shade[:, None]
     return Mesh(vertices, outwards(vertices, triangles), colour).welded()
 
 
 def _wave(angle: Array, t: float) -> Array:
     """Return 0 in the grooves between locks, 1 on their backs."""
     return np.abs(np.sin(angle * 9 + 0.9 * np.sin(t * 3 + angle * 2) - 0.5 * t))
+
+
+def _shade(angle: Array, t: float) -> Array:
+    """Return how light the hair is: dark in grooves and at the hairline, with finer strands between."""
+    grooves = mix(1, 0.72 + 0.40 * _wave(angle, t), smoothstep(0.1, 0.5, t))
+    strands = 1 + 0.07 * np.sin(angle * 27 + 2.0 * np.sin(t * 4 + angle))
+    return grooves * strands * mix(1, 0.62, smoothstep(0.80, 1, t))
+
+
+def hairline(mesh: Mesh) -> Array:
+    """Return (n, 3) points all along the hairline."""
+    ring = mesh.vertices[-AROUND:]
+    return np.concatenate([mix(ring, np.roll(ring, -1, axis=0), share) for share in (0, 0.25, 0.5, 0.75)])
 
 
 def _volume(normal: Array, t: float, angle: Array, fringe: Array) -> Array:
@@ -59,7 +72,7 @@ def _volume(normal: Array, t: float, angle: Array, fringe: Array) -> Array:
     thick = 0.70 + 1.05 * fringe * smoothstep(0.15, 0.8, t) + 0.1 * np.cos(angle)
     thick = thick * mix(0.25, 1, edge * (2 - edge)) * (1 - 0.55 * temple)
     wave = _wave(angle, t)
-    groove = 0.20 * (1 - wave) ** 2 * smoothstep(0.10, 0.45, t)
+    groove = 0.26 * (1 - wave) ** 2 * smoothstep(0.10, 0.45, t)
     swept = fringe * smoothstep(0.4, 0.95, t) * (1 - 0.6 * smoothstep(0.93, 1, t))
     offset: Array = (
         normal * (thick * (1 - groove / 0.8))[:, None] + np.array([0, 0.35, 0.25]) * swept[:, None]

@@ -19,7 +19,11 @@ WHOLE = Viewport(0, 0, SIZE, SIZE)
 
 
 def ball(
-    rings: int = 24, *, colour: tuple[float, float, float] | None = None, inside_out: bool = False
+    rings: int = 24,
+    *,
+    name: str = "ball",
+    colour: tuple[float, float, float] | None = None,
+    inside_out: bool = False,
 ) -> Rig:
     """A closed ball of radius 1 round the origin, with one shape that stretches it upwards."""
     columns = 2 * rings
@@ -45,7 +49,7 @@ def ball(
         triangles.ravel(),
         np.full(len(triangles), 3),
         [("stretch", stretch)],
-        parts=[PartLook("ball", colour)],
+        parts=[PartLook(name, colour)],
     )
 
 

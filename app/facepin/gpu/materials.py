@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from facepin.core.arrays import Points
 from facepin.core.rig import Part, Rig
 from facepin.core.topology import DrawRun
+from facepin.gpu.eyes import paint_iris
 
 Colour = tuple[float, float, float]
 
@@ -26,16 +27,19 @@ class Material:
 CLAY = Material((0.58, 0.55, 0.53), Part.roughness)
 """What says nothing about itself."""
 
+EYEBALL = Material((0.72, 0.70, 0.68), 0.08)
+"""The white of an eye; its iris is painted on."""
+
 BY_NAME: tuple[tuple[str, Material | None], ...] = (
     ("occlusion|lacrimal|tear|eyeblend|eyewet|lash", None),
     ("brow", Material((0.25, 0.20, 0.17), 0.6)),
     ("iris", Material((0.24, 0.36, 0.42), 0.08)),
     ("pupil", Material((0.02, 0.02, 0.02), 0.08)),
-    ("sclera|eyeball|eyewhite", Material((0.72, 0.70, 0.68), 0.08)),
-    ("teeth|tooth", Material((0.74, 0.71, 0.66), 0.22)),
-    ("gum|tongue|mouthsocket", Material((0.55, 0.34, 0.32), 0.35)),
+    ("sclera|eyeball|eyewhite", EYEBALL),
+    ("teeth|tooth", Material((0.83, 0.81, 0.77), 0.25)),
+    ("gum|tongue|mouthsocket", Material((0.54, 0.36, 0.34), 0.35)),
     ("hair|beard|moustache", Material((0.26, 0.20, 0.17), 0.45)),
-    ("^(left|right)?eyes?(l|r|left|right)?$", Material((0.72, 0.70, 0.68), 0.08)),
+    ("^(left|right)?eyes?(l|r|left|right)?$", EYEBALL),
 )
 """Pattern in a part's name (small letters only) and its material; the first that fits counts.  None: clear
 shells in front of the eye and cards that only a texture turns into lashes; they are left out."""
@@ -62,6 +66,12 @@ class Run:
         return replace(self, hidden="back"), replace(self, hidden="front")
 
 
+def by_name(part: Part) -> Material | None:
+    """Return the material of the first pattern that fits a part's name, otherwise clay."""
+    name = re.sub("[^a-z]", "", part.name.lower())
+    return next((look for pattern, look in BY_NAME if re.search(pattern, name)), CLAY)
+
+
 def material(part: Part, coloured: bool) -> Material | None:
     """Return what a part looks like, or None if it is better not seen.
 
@@ -72,8 +82,7 @@ def material(part: Part, coloured: bool) -> Material | None:
     coloured : bool
         The rig has vertex colours: the part's own colour is then not used.
     """
-    name = re.sub("[^a-z]", "", part.name.lower())
-    named = next((look for pattern, look in BY_NAME if re.search(pattern, name)), CLAY)
+    named = by_name(part)
     if named is None:
         if part.colour is None and not coloured:
             return None
@@ -113,10 +122,19 @@ def cull_hidden(ctx: moderngl.Context, run: Run) -> None:
 
 
 def vertex_albedo(rig: Rig) -> NDArray[np.float16]:
-    """Linear vertex colours, white where the rig has none, and openness 1: (n, 4) float16."""
+    """Linear colours that a run's tint multiplies, and openness 1: (n, 4) float16.
+
+    White where the rig has no vertex colours, but for the irises.
+    """
     albedo = np.ones((rig.vertex_count, 4), np.float16)
     if rig.colours is not None:
         albedo[:, :3] = linear(rig.colours)
+        return albedo
+    for part in rig.parts:
+        if by_name(part) is EYEBALL and part.colour is None:
+            vertices = np.unique(rig.triangles[part.triangles.start : part.triangles.stop])
+            colours = paint_iris(rig.neutral[vertices], EYEBALL.colour)
+            albedo[vertices, :3] = linear(colours) / linear(np.array(EYEBALL.colour))
     return albedo
 
 

@@ -11,7 +11,7 @@ from PIL import Image
 from facepin.core.events import FilesDropped, PointerMoved, PointerReleased, Scrolled
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
-from facepin.panels.requests import Command, SetPin
+from facepin.panels.requests import AddPane, Command, KeepPane, SetPin
 from facepin.session.solving import PinSolver, choose
 
 
@@ -51,7 +51,7 @@ def test_press_on_the_chin_drag_down_release(narrow: Path, solver: str) -> None:
         assert pose.weights[jaw] > 0.05
 
         # The pin's vertex is on its goal up to what the solver itself says is left.
-        solved = app.session.solved[0]
+        solved = app.session.pane.solved
         position = rig.evaluate(pose.weights)[pin.vertex].astype(float)
         miss = np.linalg.norm(np.subtract(pose.pins[0].goal, position))
         assert miss == pytest.approx(solved.pin_error, abs=1e-4 * rig.height)
@@ -163,14 +163,15 @@ def test_nothing_is_drawn_when_nothing_happens() -> None:
         assert app.frame.drawn
 
 
-def test_the_face_is_solved_once_per_frame_however_many_mouse_events_came() -> None:
+def test_the_face_is_solved_once_per_frame_however_many_mouse_events_came(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    solved = []
+    solve = PinSolver.solve
+    monkeypatch.setattr(PinSolver, "solve", lambda *args: solved.append(1) or solve(*args))
     with running() as app:
         x, y = app.pixel_of(chin(app))
         app.press(x, y)
-        solved = []
-        solver = app.session._solvers[0]
-        original = solver.solve
-        solver.solve = lambda pins, start: solved.append(1) or original(pins, start)
         app.step(*(PointerMoved(x, y + step) for step in range(4, 44)))
         assert len(solved) == 1
         one = app.session.pose.weights
@@ -302,3 +303,62 @@ def test_a_pin_that_no_shape_moves_is_pointed_out() -> None:
     with running() as app:
         app.drag((473, 630), (473, 631))  # the shirt
         assert "No shape" in app.desk.message
+
+
+def test_several_panes_are_dragged_as_one_and_undone_as_one() -> None:
+    with running(size=(1600, 900)) as app:
+        for key in ("tikhonov", "sparse", "tikhonov"):
+            app.desk.carry_out(AddPane(choose(key)), app.frame.viewports[0])
+        app.step(PointerMoved(5, 5), frames=3)
+        assert len(app.frame.viewports) == 4
+        before = app.session.work
+        vertex = chin(app)
+        viewport = app.frame.viewports[2]
+        x, y, _ = app.desk.cameras[2].project(app.desk.stage.positions(2)[vertex][None], viewport)[0]
+        app.drag((x, y), (x, y + 25))
+        panes = app.session.panes
+        assert app.session.active == 2  # where the mouse went down
+        assert all(pane.pose.pins == panes[0].pose.pins for pane in panes)
+        for pane in panes:  # each from its own weights with its own solver
+            alone = PinSolver(app.session.rig, pane.choice).solve(
+                pane.pose.pins, before.panes[0].pose.weights
+            )
+            np.testing.assert_allclose(pane.pose.weights, alone.weights, atol=1e-9)
+        assert not np.allclose(panes[0].pose.weights, panes[1].pose.weights, atol=1e-3)
+        np.testing.assert_array_equal(panes[1].pose.weights, panes[3].pose.weights)
+        app.key("z", control=True)
+        assert app.session.work is before
+        app.key("z", control=True, shift=True)
+        app.desk.carry_out(KeepPane(2), app.frame.viewports[0])
+        app.step(PointerMoved(6, 6), frames=3)
+        assert len(app.frame.viewports) == 1
+        assert app.session.pose is panes[2].pose
+        app.key("z", control=True)
+        assert len(app.frame.viewports) == 4
+
+
+def test_cameras_can_be_unlinked() -> None:
+    with running(size=(1600, 900)) as app:
+        app.desk.carry_out(AddPane(choose("tikhonov")), app.frame.viewports[0])
+        app.step(PointerMoved(5, 5), frames=3)
+        corner = app.frame.viewports[1]
+        at = (corner.x + corner.width - 30, corner.y + corner.height - 30)
+        app.drag(at, (at[0] - 40, at[1]))
+        assert app.desk.cameras[0] == app.desk.cameras[1]
+        app.desk.view.linked = False
+        app.drag(at, (at[0] - 40, at[1]))
+        assert app.desk.cameras[0] != app.desk.cameras[1]
+
+
+def test_the_reference_is_measured_against_and_undone() -> None:
+    with running(size=(1600, 900)) as app:
+        app.desk.carry_out(AddPane(choose("tikhonov")), app.frame.viewports[0])
+        weights = np.zeros(app.session.rig.shape_count)
+        weights[[3, 8]] = 0.7, 0.5
+        app.session.set_reference(weights)
+        app.step(PointerMoved(5, 5), frames=3)
+        found = app.desk.stage.appraise(0)
+        assert found.e_rms == pytest.approx(np.sqrt((0.7**2 + 0.5**2) / len(weights)))
+        assert found.far_motion == 0
+        app.key("z", control=True)
+        assert app.desk.stage.appraise(0).e_rms is None

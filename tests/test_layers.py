@@ -13,6 +13,7 @@ LAYERS: list[set[str]] = [
     {"__main__"},
     {"commands"},
     {"main_loop", "figures"},
+    {"interface", "routing"},
     {"desk"},
     {"stage", "options"},
     {"window", "gpu", "panels"},
@@ -86,5 +87,7 @@ def test_the_window_starts_without_what_it_does_not_need_yet() -> None:
     """The first picture is a promise of one second: heavy libraries are imported where they are used."""
     code = "import sys, facepin.main_loop; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    heavy = set(loaded.split()) & (HEAVY | {"scipy.optimize", "scipy.spatial", "scipy.linalg", "scipy.sparse.csgraph"})
+    heavy = set(loaded.split()) & (
+        HEAVY | {"scipy.optimize", "scipy.spatial", "scipy.linalg", "scipy.sparse.csgraph"}
+    )
     assert heavy <= {"moderngl", "glfw", "imgui_bundle"}

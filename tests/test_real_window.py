@@ -59,7 +59,8 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
     try:
         window = _wait_for(lambda: hand.do("search", "--name", "^ada - Facepin$"))
         geometry = dict(
-            line.split("=") for line in hand.do("getwindowgeometry", "--shell", window.split()[0]).splitlines()
+            line.split("=")
+            for line in hand.do("getwindowgeometry", "--shell", window.split()[0]).splitlines()
         )
         left, top = int(geometry["X"]), int(geometry["Y"])
         time.sleep(0.5)
@@ -71,7 +72,9 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
             hand.do("mousemove_relative", "--", 0, 2)
         time.sleep(0.3)
         hand.do("mouseup", 1)
-        assert _wait_for(lambda: hand.do("search", "--name", r"^ada\* - Facepin$")), "the pose should be unsaved"
+        assert _wait_for(lambda: hand.do("search", "--name", r"^ada\* - Facepin$")), (
+            "the pose should be unsaved"
+        )
         saved = _save(hand, tmp_path / "dragged.json")
         assert saved["weights"]["jawOpen"] > 0.1
         assert len(saved["pins"]) == 1

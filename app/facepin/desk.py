@@ -7,6 +7,7 @@ from pathlib import Path
 import moderngl
 import numpy as np
 
+from facepin.core.arrays import Floats
 from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin, Pose
@@ -20,14 +21,17 @@ from facepin.options import BUILTIN
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.requests import (
     VIEW_COMMANDS,
+    AddPane,
     CancelLoading,
+    ClosePane,
     Command,
+    KeepPane,
     OpenPath,
     Request,
     SetPin,
     UseSolver,
 )
-from facepin.panels.view import View
+from facepin.panels.view import PaneView, View
 from facepin.resources import resource
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
@@ -36,12 +40,16 @@ from facepin.session.session import Session, Work
 from facepin.session.solving import SolverChoice
 from facepin.stage import Stage
 
+RANDOM_SHAPES = 4
+"""Active shapes of a random reference pose."""
+
 _POSES = ("Poses", "*.json *.csv")
 _DIALOGS: dict[Command, tuple[Kind, tuple[str, ...]]] = {
     Command.OPEN_FILE: ("open file", ("Faces", "*.glb *.gltf *.vrm *.npz *.obj", "All files", "*")),
     Command.OPEN_FOLDER: ("open folder", ()),
     Command.LOAD_POSE: ("open file", _POSES),
     Command.SAVE_POSE: ("save file", _POSES),
+    Command.REFERENCE_FROM_FILE: ("open file", _POSES),
     Command.EXPORT: ("save file", ("Models", "*.glb *.obj *.ply *.stl")),
 }
 
@@ -75,7 +83,8 @@ class Desk:
         """
         self.view = view
         self.tool = DragTool()
-        self.camera = Camera()
+        self.cameras: list[Camera] = [Camera()]
+        """One per pane."""
         self.stage: Stage | None = None
         self.loading: Loading | None = None
         self.dialog: FileDialog | None = None
@@ -85,7 +94,7 @@ class Desk:
         """The last rig that was opened from a file, for the list of recent ones."""
         self.closing = False
         self._ctx = ctx
-        self._choices = tuple(choices)
+        self._choices = choices
         self._native = native_dialogs
         self._pictures = pictures
         self._asked: Command | None = None
@@ -96,6 +105,18 @@ class Desk:
     def session(self) -> Session | None:
         """The open session, if any."""
         return self.stage.session if self.stage else None
+
+    @property
+    def camera(self) -> Camera:
+        """The camera of the active pane."""
+        return self.cameras[self.session.active if self.session else 0]
+
+    def look(self, camera: Camera, pane: int | None = None) -> None:
+        """Look at a pane (the active one for None) through another camera; at all of them while they are linked."""
+        if self.view.linked or self.session is None:
+            self.cameras = [camera] * len(self.cameras)
+        else:
+            self.cameras[self.session.active if pane is None else pane] = camera
 
     @property
     def title(self) -> str:
@@ -173,9 +194,20 @@ class Desk:
         session = stage.session
         pose, rig = session.pose, session.rig
         match request:
-            case UseSolver(pane, choice):
-                session.choose_solver(pane, choice)
-                self._choices = session.choices
+            case UseSolver(pane, choice, final):
+                session.choose_solver(pane, choice, final=final)
+            case AddPane(choice):
+                session.add_pane(choice)
+            case ClosePane(pane):
+                session.close_pane(pane)
+            case KeepPane(pane):
+                session.keep_pane(pane)
+            case Command.REFERENCE_FROM_POSE:
+                session.set_reference(pose.weights)
+            case Command.REFERENCE_RANDOM:
+                session.set_reference(_random_weights(rig))
+            case Command.FORGET_REFERENCE:
+                session.set_reference(None)
             case SetPin():
                 self._set_pin(session, request)
             case Command.UNDO:
@@ -193,16 +225,17 @@ class Desk:
             case Command.CLEAR_PINS:
                 self.apply(Edit("Remove all pins", True, ()))
             case Command.FRAME:
-                self.camera = frame_points(stage.positions(session.active), viewport.aspect, self.camera)
+                self.look(frame_points(stage.positions(session.active), viewport.aspect, self.camera))
             case Command.SCREENSHOT:
                 self._save_picture(stage, viewport)
-            case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT:
+            case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT | Command.REFERENCE_FROM_FILE:
                 suffix = ".glb" if request is Command.EXPORT else ".json"
                 folder = Path.home() if self.opened is None else self.opened.parent
-                asked = folder if request is Command.LOAD_POSE else folder / f"{rig.name}{suffix}"
+                opens = request in (Command.LOAD_POSE, Command.REFERENCE_FROM_FILE)
+                asked = folder if opens else folder / f"{rig.name}{suffix}"
                 self._ask(request, asked)
             case Command() if request in VIEW_COMMANDS:
-                self.camera = self.camera.looking(VIEW_COMMANDS[request])
+                self.look(self.camera.looking(VIEW_COMMANDS[request]))
 
     def _set_pin(self, session: Session, request: SetPin) -> None:
         pins = session.pose.pins
@@ -223,7 +256,8 @@ class Desk:
     def _show(self, rig: Rig, viewport: Viewport) -> None:
         """Put an opened rig on the desk."""
         pose = self._first_pose(rig) if self._first_pose else None
-        session = Session(rig, self._choices, pose)
+        choices = [pane.choice for pane in self.session.panes] if self.session else self._choices
+        session = Session(rig, choices, pose)
         if pose is not None and pose.pins:
             session.apply(Edit("Solve the pins", True, pose.pins, solve=True))
         stage = Stage(self._ctx, session)
@@ -231,7 +265,7 @@ class Desk:
             self.stage.release()
         self.stage, self.tool = stage, DragTool()
         self._saved = session.committed
-        self.camera = frame_points(stage.positions(session.active), viewport.aspect)
+        self.cameras = [frame_points(stage.positions(session.active), viewport.aspect)] * len(session.panes)
         self.say(session.message, error=bool(session.message))
 
     def _ask(self, command: Command, start: Path) -> None:
@@ -251,6 +285,10 @@ class Desk:
             loaded, report = read_pose(path, rig)
             self.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
             self.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
+        elif self._asked is Command.REFERENCE_FROM_FILE:
+            loaded, report = read_pose(path, rig)
+            self.session.set_reference(loaded.weights)
+            self.say(f"{path.name}: {report}" if report else f"{path.name} is the reference")
         elif self._asked is Command.SAVE_POSE:
             write_pose(path, rig, pose)
             self._saved = self.session.committed
@@ -271,6 +309,12 @@ class Desk:
         atomic_write(path, png_bytes(image))
         self.say(f"Saved {path}")
 
+    def sync(self) -> None:
+        """Have a camera and a view for every pane, also after undo brought panes back."""
+        count = len(self.session.panes) if self.session else 1
+        self.cameras = (self.cameras + [self.cameras[-1]] * count)[:count]
+        self.view.panes += [PaneView() for _ in range(len(self.view.panes), count)]
+
     def _reporting(self) -> "_Reporting":
         return _Reporting(self)
 
@@ -289,3 +333,12 @@ class _Reporting:
             self._desk.say(str(error), error=True)
             return True
         return False
+
+
+def _random_weights(rig: Rig) -> Floats:
+    """Return a pose of four shapes with weights in 0.4 .. 1, as the study draws them."""
+    random = np.random.default_rng()
+    weights = np.zeros(rig.shape_count)
+    shapes = random.choice(rig.shape_count, min(RANDOM_SHAPES, rig.shape_count), replace=False)
+    weights[shapes] = random.uniform(0.4, 1.0, len(shapes))
+    return weights

@@ -1,5 +1,6 @@
 """The open rig as it is shown: for each pane its positions, normals and mesh on the graphics card."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -15,6 +16,8 @@ from facepin.gpu.canvas import Canvas
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
 from facepin.gpu.scene import PaneMesh, Scene
+from facepin.panels.view import PaneView
+from facepin.session.appraisal import Appraisal, Appraiser
 from facepin.session.drag import DragTool
 from facepin.session.session import Session
 
@@ -39,21 +42,23 @@ class Stage:
         """Time of the last deformation with normals and upload, all panes."""
         self._scene = Scene(ctx, session.rig)
         self._markers = MarkerLayer(ctx)
-        normals = NormalField(session.rig)
-        self._shown = [
-            _Shown(Deformer(session.rig), normals if pane == 0 else normals.twin(), PaneMesh(self._scene))
-            for pane in range(len(session.poses))
-        ]
+        self._appraiser = Appraiser(session.rig)
+        self._shown = [_Shown(Deformer(session.rig), NormalField(session.rig), PaneMesh(self._scene))]
         self.update()
 
     def update(self) -> bool:
         """Deform what has new weights and send it to the graphics card; return whether anything had."""
         began = perf_counter()
+        panes = self.session.panes
+        for _ in range(len(self._shown), len(panes)):
+            first = self._shown[0]
+            self._shown.append(_Shown(first.deformer.twin(), first.normals.twin(), PaneMesh(self._scene)))
         changed = False
-        for shown, pose in zip(self._shown, self.session.poses, strict=True):
-            if pose.weights is not shown.weights:
-                shown.weights = pose.weights
-                shown.positions = shown.deformer.deform(pose.weights)
+        for shown, pane in zip(self._shown, panes, strict=False):
+            weights = pane.pose.weights
+            if weights is not shown.weights:
+                shown.weights = weights
+                shown.positions = shown.deformer.deform(weights)
                 shown.mesh.upload(shown.positions, shown.normals.normals(shown.positions))
                 changed = True
         if changed:
@@ -66,6 +71,11 @@ class Stage:
         assert positions is not None, "update() fills this"
         return positions
 
+    def appraise(self, pane: int) -> Appraisal:
+        """Measure a pane's pose as it is shown."""
+        work = self.session.work
+        return self._appraiser.appraise(work.panes[pane], self.positions(pane), work.reference)
+
     def mesh(self, pane: int) -> PaneMesh:
         """The mesh of a pane, for a picture of it."""
         return self._shown[pane].mesh
@@ -73,17 +83,34 @@ class Stage:
     def draw(
         self,
         canvas: Canvas,
-        viewports: tuple[Viewport, ...],
-        camera: Camera,
+        sights: Sequence[tuple[Viewport, Camera]],
+        overlays: Sequence[PaneView],
         tool: DragTool,
         scale: float,
         *,
         fine: bool,
     ) -> None:
-        """Draw every pane with its pins into its viewport; `fine` is slower where a processor does the drawing."""
-        for pane, (viewport, pose) in enumerate(zip(viewports, self.session.poses, strict=True)):
-            self._shown[pane].mesh.draw(canvas, viewport, camera, fine=fine)
-            markers = _markers(pose, self.positions(pane), tool)
+        """Draw every pane with its pins.
+
+        Parameters
+        ----------
+        canvas : Canvas
+            What to draw into.
+        sights : sequence of (viewport, camera)
+            Where each pane is and how it is seen.
+        overlays : sequence of PaneView
+            What each pane shows over its face.
+        tool : DragTool
+            Which pins are held, hovered or selected.
+        scale : float
+            Pixels per pixel of a 1x screen.
+        fine : bool
+            Slower where a processor does the drawing.
+        """
+        self._scene.background.draw(canvas, sights)
+        for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
+            self._shown[at].mesh.draw(canvas, viewport, camera, fine=fine)
+            markers = _markers(pane.pose, self.positions(at), tool)
             self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 
     def release(self) -> None:

@@ -9,6 +9,8 @@ SOLVER = "Solver"
 PANEL_WIDTH = 330.0
 SOLVER_HEIGHT = 332.0
 """First sizes of the docked panels, in pixels at 1x scale."""
+FACE_ASPECT = 0.6
+"""Width over height of a pane that a face fills well."""
 
 
 def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
@@ -35,6 +37,36 @@ def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
         node.pos.y * pixel_ratio,
         max(node.size.x, 1) * pixel_ratio,
         max(node.size.y, 1) * pixel_ratio,
+    )
+
+
+def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
+    """Cut a viewport into `count` equal panes, in rows and columns that leave a face as large as possible.
+
+    Parameters
+    ----------
+    viewport : Viewport
+        What is there to cut.
+    count : int
+        One or more.
+    gap : float
+        Pixels between panes.
+    """
+    columns = max(
+        (columns for columns in range(1, count + 1) if count % columns == 0),
+        key=lambda columns: min(viewport.width / columns / FACE_ASPECT, viewport.height * columns / count),
+    )
+    rows = count // columns
+    width = (viewport.width - gap * (columns - 1)) / columns
+    height = (viewport.height - gap * (rows - 1)) / rows
+    return tuple(
+        Viewport(
+            round(viewport.x + (at % columns) * (width + gap)),
+            round(viewport.y + (at // columns) * (height + gap)),
+            max(round(width), 1),
+            max(round(height), 1),
+        )
+        for at in range(count)
     )
 
 

@@ -6,8 +6,11 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.pose import Freedom, Pin
-from facepin.panels.requests import Command, OpenPath, Request, SetPin
+from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, OpenPath, Request, SetPin
 from facepin.panels.view import View
+from facepin.session.session import MOST_PANES, Session
+from facepin.session.solving import choose
+from facepin.solvers import SOLVERS
 
 FREEDOMS: dict[Freedom, str] = {
     "space": "Hold in space (x, y and z)",
@@ -15,9 +18,7 @@ FREEDOMS: dict[Freedom, str] = {
 }
 
 
-def menu_bar(
-    view: View, recent: Sequence[Path], undo: str | None, redo: str | None, pins: int
-) -> Request | None:
+def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Request | None:
     """Draw the menu bar; return what the user asks for, or None.
 
     Parameters
@@ -26,11 +27,12 @@ def menu_bar(
         What is shown, changed in place.
     recent : paths
         Rigs opened lately, newest first.
-    undo, redo : str
-        What undo and redo would do, None when nothing.
-    pins : int
-        Number of pins on the face.
+    session : Session
+        What is open, if anything; only read.
     """
+    undo = session.undo_label if session else None
+    redo = session.redo_label if session else None
+    pins = len(session.pose.pins) if session else 0
     asked: Request | None = None
     if not imgui.begin_main_menu_bar():
         return None
@@ -63,6 +65,9 @@ def menu_bar(
                     view.freedom = freedom
             imgui.end_menu()
         imgui.end_menu()
+    if imgui.begin_menu("Compare", session is not None) and session is not None:
+        asked = _compare(view, session) or asked
+        imgui.end_menu()
     if imgui.begin_menu("View"):
         for command in (Command.FRAME, Command.FRONT, Command.LEFT, Command.RIGHT, Command.THREE_QUARTER):
             asked = _item(command) or asked
@@ -81,6 +86,27 @@ def menu_bar(
         imgui.end_menu()
     imgui.end_main_menu_bar()
     return asked
+
+
+def _compare(view: View, session: Session) -> Request | None:
+    """Draw the inside of the menu for several panes and the reference pose."""
+    asked: Request | None = None
+    if imgui.begin_menu("Add a pane", len(session.panes) < MOST_PANES):
+        for key, kind in SOLVERS.items():
+            if imgui.menu_item_simple(kind.title):
+                asked = AddPane(choose(key))
+        imgui.end_menu()
+    several = len(session.panes) > 1
+    if imgui.menu_item_simple("Keep the selected pane", enabled=several):
+        asked = KeepPane(session.active)
+    if imgui.menu_item_simple("Close the selected pane", enabled=several):
+        asked = ClosePane(session.active)
+    if imgui.menu_item_simple("One camera for all panes", selected=view.linked, enabled=several):
+        view.linked = not view.linked
+    imgui.separator()
+    for command in (Command.REFERENCE_FROM_POSE, Command.REFERENCE_FROM_FILE, Command.REFERENCE_RANDOM):
+        asked = _item(command) or asked
+    return _item(Command.FORGET_REFERENCE, session.work.reference is not None) or asked
 
 
 def pin_menu(pin: Pin) -> SetPin | None:

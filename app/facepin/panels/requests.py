@@ -19,7 +19,7 @@ class Command(Enum):
     LOAD_POSE = "Load pose…", ("Ctrl+L",)
     SAVE_POSE = "Save pose…", ("Ctrl+S",)
     EXPORT = "Export model…", ("Ctrl+E",)
-    SCREENSHOT = "Save picture…", ("F12",)
+    SCREENSHOT = "Save picture", ("F12",)
     QUIT = "Quit", ("Ctrl+Q",)
     UNDO = "Undo", ("Ctrl+Z",)
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y")
@@ -32,6 +32,10 @@ class Command(Enum):
     RIGHT = "Character's right", ("Ctrl+3",)
     THREE_QUARTER = "Three-quarter", ("7", "Numpad 7")
     RESET_LAYOUT = "Reset the panel layout", ()
+    REFERENCE_FROM_POSE = "Take this pose as the reference", ()
+    REFERENCE_FROM_FILE = "Reference from a file…", ()
+    REFERENCE_RANDOM = "Random reference", ()
+    FORGET_REFERENCE = "Forget the reference", ()
 
     @property
     def title(self) -> str:
@@ -77,6 +81,29 @@ class UseSolver:
 
     pane: int
     choice: SolverChoice
+    final: bool = True
+    """False while a setting is being slid."""
+
+
+@dataclass(frozen=True)
+class AddPane:
+    """Solve the same drags with one more solver."""
+
+    choice: SolverChoice
+
+
+@dataclass(frozen=True)
+class ClosePane:
+    """Close a pane."""
+
+    pane: int
+
+
+@dataclass(frozen=True)
+class KeepPane:
+    """Go on with the pose of one pane alone."""
+
+    pane: int
 
 
 @dataclass(frozen=True)
@@ -95,4 +122,4 @@ class CancelLoading:
     """Give up opening a file."""
 
 
-Request = Command | OpenPath | UseSolver | SetPin | CancelLoading
+Request = Command | OpenPath | UseSolver | AddPane | ClosePane | KeepPane | SetPin | CancelLoading

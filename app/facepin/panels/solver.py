@@ -11,20 +11,20 @@ from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import UseSolver
 from facepin.panels.theme import WARNING
-from facepin.session.solving import Solved, SolverChoice, choose
+from facepin.session.session import Pane
+from facepin.session.solving import Solved, choose
 from facepin.solvers import SOLVERS
 
 
-def solver_panel(
-    rig: Rig, pose: Pose, pane: int, choice: SolverChoice, solved: Solved | None
-) -> UseSolver | None:
-    """Draw the choice of solver for a pane; return what the user changes in this frame, or None."""
+def solver_panel(rig: Rig, pane: Pane, at: int) -> UseSolver | None:
+    """Draw the solver of pane number `at`; return what the user changes in this frame, or None."""
+    choice = pane.choice
     request = None
     imgui.set_next_item_width(-1)
     if imgui.begin_combo("##solver", choice.kind.title):
         for key, kind in SOLVERS.items():
             if imgui.selectable(kind.title, kind is choice.kind)[0] and kind is not choice.kind:
-                request = UseSolver(pane, choose(key, keep_limits=choice.keep_limits))
+                request = UseSolver(at, choose(key, keep_limits=choice.keep_limits))
             imgui.set_item_tooltip(kind.summary)
         imgui.end_combo()
     _sentence(choice.kind.summary)
@@ -34,17 +34,20 @@ def solver_panel(
         when = field.metadata["when"]
         imgui.begin_disabled(when is not None and getattr(choice.settings, when[0]) != when[1])
         changed, value = _setting(field.name, field.metadata, value)
+        sliding = imgui.is_item_active()
+        finished = imgui.is_item_deactivated_after_edit()
         imgui.end_disabled()
-        if changed:
+        if changed or finished:
             settings = dataclasses.replace(choice.settings, **{field.name: value})
-            request = UseSolver(pane, dataclasses.replace(choice, settings=settings))
+            changed_choice = dataclasses.replace(choice, settings=settings)
+            request = UseSolver(at, changed_choice, final=finished or not sliding)
     if not choice.kind.obeys_limits:
         changed, keep = imgui.checkbox("keep within limits", choice.keep_limits)
         imgui.set_item_tooltip("Clip every weight the solver returns to the limits of its shape.")
         if changed:
-            request = UseSolver(pane, dataclasses.replace(choice, keep_limits=keep))
+            request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
     imgui.separator()
-    _answer(rig, pose, solved)
+    _answer(rig, pane.pose, pane.solved)
     return request
 
 

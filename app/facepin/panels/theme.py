@@ -1,8 +1,11 @@
 """Colours, spacing and fonts of all panels."""
 
+from collections.abc import Sequence
+
 from imgui_bundle import imgui
 
 from facepin.resources import resource
+from facepin.solvers.colours import INKS
 
 Colour = tuple[float, float, float, float]
 
@@ -111,6 +114,17 @@ def apply_theme(ui_scale: float) -> None:
     }
     for index, colour in colours.items():
         style.set_color_(index, imgui.ImVec4(*colour))
+
+
+def pane_colours(keys: Sequence[str]) -> list[Colour]:
+    """Return one colour per pane: its solver's, paler where the same solver came before."""
+    colours: list[Colour] = []
+    for at, key in enumerate(keys):
+        code = INKS[key].colour if key in INKS else "#ffffff"
+        paler = 0.15 + 0.3 * list(keys[:at]).count(key)  # the chart colours are made for white paper
+        r, g, b = (int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        colours.append((r + (1 - r) * paler, g + (1 - g) * paler, b + (1 - b) * paler, 1.0))
+    return colours
 
 
 def packed(colour: Colour, alpha: float = 1.0) -> int:

@@ -9,6 +9,25 @@ from facepin.panels.weights import WeightsView
 Quality = Literal["auto", "always", "off"]
 
 
+Ghost = Literal["none", "neutral", "reference"]
+
+
+@dataclass
+class PaneView:
+    """What a pane shows over its face."""
+
+    heat: bool = False
+    """How far each vertex moved since the drag began, as colours."""
+    wireframe: bool = False
+    ghost: Ghost = "none"
+    """Another pose that shines through."""
+
+    @property
+    def key(self) -> tuple[bool, bool, Ghost]:
+        """Equal keys look the same."""
+        return self.heat, self.wireframe, self.ghost
+
+
 @dataclass
 class View:
     """Toggles that panels change in place."""
@@ -29,3 +48,7 @@ class View:
     """Vertex of the pin whose menu is open."""
     pin_menu_opens: bool = False
     """It was asked for just now."""
+    panes: list[PaneView] = field(default_factory=lambda: [PaneView()])
+    """One per pane, or more: a pane that comes back finds its own."""
+    linked: bool = True
+    """One camera for all panes."""

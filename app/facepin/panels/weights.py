@@ -1,5 +1,6 @@
 """The weights panel: the slider interface of the paper's Figure 3, live while the face is dragged."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -7,13 +8,15 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
+from facepin.core.measures import active as active_shapes
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.panels.theme import ACCENT, ACCENT_DIM, FRAME, TEXT, TEXT_DIM, WARNING, packed
+from facepin.panels.theme import ACCENT, FRAME, TEXT, TEXT_DIM, WARNING, Colour, packed, pane_colours
 from facepin.session.edit import Edit
+from facepin.session.session import Pane
 
-ACTIVE = 0.005
-"""A weight further from zero than this is emphasised: it shows as at least 0.01."""
+VISIBLE = 0.005
+"""A weight further from zero than this is emphasised: its number shows it."""
 
 Order = Literal["rig order", "by weight"]
 
@@ -28,13 +31,19 @@ class WeightsView:
     """Rows by weight; kept while a gesture goes on, so that no row runs away from the mouse."""
 
 
-def weights_panel(rig: Rig, pose: Pose, view: WeightsView, scale: float, *, in_gesture: bool) -> Edit | None:
+def weights_panel(
+    rig: Rig, panes: Sequence[Pane], active: int, view: WeightsView, scale: float, *, in_gesture: bool
+) -> Edit | None:
     """Draw one slider per shape; return the change of weights the user makes in this frame, or None.
 
     Parameters
     ----------
-    rig, pose
-        What is shown.
+    rig : Rig
+        Its shapes are listed.
+    panes : sequence of Pane
+        One bar each; with several, a shape's bars stand one under the other in the panes' colours.
+    active : int
+        The pane whose numbers are shown and edited.
     view : WeightsView
         Search and order, changed in place.
     scale : float
@@ -42,6 +51,9 @@ def weights_panel(rig: Rig, pose: Pose, view: WeightsView, scale: float, *, in_g
     in_gesture : bool
         Whether a drag or a slider is being moved.
     """
+    pose = panes[active].pose
+    colours = [ACCENT] if len(panes) == 1 else pane_colours([pane.choice.kind.key for pane in panes])
+    poses = [pane.pose.weights for pane in panes]
     edit = _head(rig, pose, view)
     rows = _rows(rig, pose.weights, view, in_gesture)
     if not rows:
@@ -56,7 +68,7 @@ def weights_panel(rig: Rig, pose: Pose, view: WeightsView, scale: float, *, in_g
         clipper.begin(len(rows))
         while clipper.step():
             for row in range(clipper.display_start, clipper.display_end):
-                edit = _row(rig, pose, rows[row], names, scale) or edit
+                edit = _row(rig, pose, rows[row], names, scale, poses, colours) or edit
     imgui.end_child()
     return edit
 
@@ -77,8 +89,8 @@ def _head(rig: Rig, pose: Pose, view: WeightsView) -> Edit | None:
     imgui.begin_disabled(not pose.weights.any())
     pressed = imgui.button("Reset all")
     imgui.end_disabled()
-    active = int(np.count_nonzero(np.abs(pose.weights) > ACTIVE))
-    imgui.text_disabled(f"{active} of {rig.shape_count} shapes active")
+    imgui.text_disabled(f"{active_shapes(pose.weights)} of {rig.shape_count} shapes active")
+    imgui.set_item_tooltip("Weights further than 0.05 from zero")
     return Edit("Reset all weights", True, weights=np.zeros(rig.shape_count)) if pressed else None
 
 
@@ -99,17 +111,25 @@ def _rows(rig: Rig, weights: Floats, view: WeightsView, in_gesture: bool) -> tup
     return tuple(j for j in rows if all(word in rig.shape_names[j].lower() for word in words))
 
 
-def _row(rig: Rig, pose: Pose, j: int, names: float, scale: float) -> Edit | None:
-    """Draw name, slider and number of one shape."""
+def _row(
+    rig: Rig,
+    pose: Pose,
+    j: int,
+    names: float,
+    scale: float,
+    poses: Sequence[Floats],
+    colours: Sequence[Colour],
+) -> Edit | None:
+    """Draw name, slider and number of one shape, with a bar for each pane."""
     weight = float(pose.weights[j])
     low, high = (float(limit) for limit in rig.limits[j])
-    outside = not low - ACTIVE <= weight <= high + ACTIVE
-    active = abs(weight) > ACTIVE
+    outside = not low - VISIBLE <= weight <= high + VISIBLE
+    visible = abs(weight) > VISIBLE
     name = rig.shape_names[j]
     imgui.push_id(j)
     left = imgui.get_cursor_screen_pos()
     height = imgui.get_frame_height()
-    colour = TEXT if active else TEXT_DIM
+    colour = TEXT if visible else TEXT_DIM
     draw = imgui.get_window_draw_list()
     draw.push_clip_rect(left, imgui.ImVec2(left.x + names - 6 * scale, left.y + height), True)
     draw.add_text(imgui.ImVec2(left.x, left.y + imgui.get_style().frame_padding.y), packed(colour), name)
@@ -119,17 +139,20 @@ def _row(rig: Rig, pose: Pose, j: int, names: float, scale: float) -> Edit | Non
     imgui.set_item_tooltip(f"{name}\nDouble click: back to 0\nCtrl+click the slider: type a number")
     imgui.same_line(names)
     # The range opens up for a weight outside its limits: nothing is clipped just by being shown.
-    low, high = min(low, weight), max(high, weight)
+    values = [float(weights[j]) for weights in poses]
+    low, high = min(low, *values), max(high, *values)
     width = imgui.get_content_region_avail().x
     at = imgui.get_cursor_screen_pos()
-    _bar(draw, at, width, height, (low, high), weight, WARNING if outside else ACCENT, scale)
+    if len(values) == 1 and outside:
+        colours = [WARNING]
+    _bars(draw, at, width, height, (low, high), values, colours, scale)
     imgui.set_next_item_width(width)
     for index in (imgui.Col_.frame_bg, imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
         imgui.push_style_color(index, imgui.ImVec4(0, 0, 0, 0))
     imgui.push_style_color(imgui.Col_.frame_bg_hovered, imgui.ImVec4(1, 1, 1, 0.06))
     imgui.push_style_color(imgui.Col_.frame_bg_active, imgui.ImVec4(1, 1, 1, 0.09))
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
-    changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f" if active else "0.00")
+    changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f" if visible else "0.00")
     imgui.pop_style_color(6)
     reset = reset or (imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0))
     finished = imgui.is_item_deactivated_after_edit()
@@ -143,17 +166,17 @@ def _row(rig: Rig, pose: Pose, j: int, names: float, scale: float) -> Edit | Non
     return Edit(f"Reset {name}" if reset else f"Set {name}", finished, weights=weights)
 
 
-def _bar(
+def _bars(
     draw: imgui.ImDrawList,
     at: imgui.ImVec2,
     width: float,
     height: float,
     limits: tuple[float, float],
-    weight: float,
-    colour: tuple[float, float, float, float],
+    values: Sequence[float],
+    colours: Sequence[Colour],
     scale: float,
 ) -> None:
-    """Draw the slider's trough, filled from zero to the weight."""
+    """Draw the slider's trough, and in it a bar from zero to each value."""
     low, high = limits
 
     def x(value: float) -> float:
@@ -165,13 +188,17 @@ def _bar(
         imgui.ImVec2(at.x, top), imgui.ImVec2(at.x + width, bottom), packed(FRAME), 3 * scale
     )
     zero = x(min(max(0.0, low), high))
-    if abs(weight) > ACTIVE:
-        a, b = sorted((zero, x(weight)))
-        fill = packed(ACCENT_DIM if colour is ACCENT else colour, 1.0 if colour is ACCENT else 0.45)
-        draw.add_rect_filled(imgui.ImVec2(a, top), imgui.ImVec2(b, bottom), fill, 2 * scale)
-        end = x(weight)
+    step = (bottom - top) / len(values)
+    for number, (value, colour) in enumerate(zip(values, colours, strict=True)):
+        if abs(value) <= VISIBLE:
+            continue
+        left, right = sorted((zero, x(value)))
+        above, below = top + number * step, top + (number + 1) * step
+        fill = packed(colour, 0.4 if len(values) == 1 else 0.75)
+        draw.add_rect_filled(imgui.ImVec2(left, above), imgui.ImVec2(right, below), fill, 2 * scale)
+        end = x(value)
         draw.add_rect_filled(
-            imgui.ImVec2(end - scale, top), imgui.ImVec2(end + scale, bottom), packed(colour), scale
+            imgui.ImVec2(end - scale, above), imgui.ImVec2(end + scale, below), packed(colour), scale
         )
-    if low < 0:
+    if low < -VISIBLE:
         draw.add_line(imgui.ImVec2(zero, top), imgui.ImVec2(zero, bottom), packed(TEXT_DIM, 0.6), scale)

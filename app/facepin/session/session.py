@@ -1,4 +1,4 @@
-"""One open rig being posed: its poses, the undo history, and the solving of every edit."""
+"""One open rig being posed: its panes, the undo history, and the solving of every edit."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -11,19 +11,34 @@ from facepin.session.edit import Edit
 from facepin.session.history import History
 from facepin.session.solving import PinSolver, Solved, SolverChoice, snapped
 
-Poses = tuple[Pose, ...]
-"""One pose per pane; they share their pins."""
+MOST_PANES = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Pane:
+    """One solver at work: what it is, and the pose it led to.  All panes of a session share their pins."""
+
+    choice: SolverChoice
+    pose: Pose
+    hand: Floats
+    """Weights last made otherwise than by dragging: where solvers start that take all pins afresh."""
+    began: Pose | None = None
+    """The pose before the drag that led here, so that another solver can be asked for the same drag."""
+    solved: Solved | None = None
+    """The solver's answer, None where the pose is not the solver's."""
+
+    def by_hand(self, pose: Pose) -> "Pane":
+        """Return the pane with a pose that no solver made."""
+        return Pane(self.choice, pose, pose.weights)
 
 
 @dataclass(frozen=True, eq=False)
 class Work:
-    """What undo brings back: the poses of all panes, and where their last drag began."""
+    """What undo brings back."""
 
-    poses: Poses
-    hand: tuple[Floats, ...]
-    """Per pane, the weights last made otherwise than by dragging: where solvers start that take all pins afresh."""
-    began: Poses | None = None
-    """The poses before the drag that led here, so that another solver can be asked for the same drag."""
+    panes: tuple[Pane, ...]
+    reference: Floats | None = None
+    """Weights (k,) that the panes are measured against (Figure 4a of the paper), if any."""
 
 
 class Session:
@@ -34,31 +49,43 @@ class Session:
 
     def __init__(self, rig: Rig, choices: Sequence[SolverChoice], pose: Pose | None = None) -> None:
         self.rig = rig
-        self.active = 0
-        """Index of the pane whose weights the panels show and edit."""
         self.message = ""
         """Why the last edit could not be carried out as asked; empty when it could."""
-        self._solvers = [PinSolver(rig, choice) for choice in choices]
-        poses = (pose or rest_pose(rig),) * len(self._solvers)
-        self._history = History(Work(poses, tuple(pose.weights for pose in poses)))
+        pose = pose or rest_pose(rig)
+        panes = tuple(Pane(choice, pose, pose.weights) for choice in choices)
+        self._history = History(Work(panes))
         self._preview: Work | None = None
-        self.solved: list[Solved | None] = [None] * len(self._solvers)
-        """The answer of each pane's solver that its pose shows, None where the pose is not a solver's."""
+        self._active = 0
+        self._solvers: dict[tuple[int, SolverChoice], PinSolver] = {}
 
     @property
-    def poses(self) -> Poses:
-        """The poses as they are shown now, one per pane."""
-        return self._work.poses
+    def work(self) -> Work:
+        """Everything as it is shown now."""
+        return self._preview or self._history.current
+
+    @property
+    def panes(self) -> tuple[Pane, ...]:
+        """The panes as they are shown now, one or more."""
+        return self.work.panes
+
+    @property
+    def active(self) -> int:
+        """Index of the pane whose weights the panels show and edit."""
+        return min(self._active, len(self.panes) - 1)
+
+    @active.setter
+    def active(self, pane: int) -> None:
+        self._active = pane
+
+    @property
+    def pane(self) -> Pane:
+        """The active pane."""
+        return self.panes[self.active]
 
     @property
     def pose(self) -> Pose:
-        """The pose of the active pane as it is shown now."""
-        return self.poses[self.active]
-
-    @property
-    def choices(self) -> tuple[SolverChoice, ...]:
-        """Solver and settings of each pane."""
-        return tuple(solver.choice for solver in self._solvers)
+        """The pose of the active pane."""
+        return self.pane.pose
 
     @property
     def in_gesture(self) -> bool:
@@ -85,84 +112,118 @@ class Session:
 
         A solver that fails leaves the last good poses in place and says so in `message`.
         """
-        self.message = ""
         before = self._history.current
         try:
-            work = self._edited(before, edit)
+            work = replace(before, panes=self._edited(before.panes, edit))
+            self.message = ""
         except FacepinError as error:
             self.message = str(error)
-            work = self._work
-        self._preview = work
-        if edit.final:
-            self._preview = None
-            if work is not before:
-                self._history.commit(edit.label, work)
+            work = self.work
+        self._show(edit.label, work, final=edit.final)
 
-    def cancel(self) -> None:
-        """Drop the gesture in progress; the poses are exactly those before it."""
-        self._forget()
-
-    def undo(self) -> bool:
-        """Take the last undo step back; False when there is none."""
-        self._forget()
-        return self._history.undo()
-
-    def redo(self) -> bool:
-        """Bring the last undone step back; False when there is none."""
-        self._forget()
-        return self._history.redo()
-
-    def choose_solver(self, pane: int, choice: SolverChoice) -> None:
+    def choose_solver(self, at: int, choice: SolverChoice, *, final: bool = True) -> None:
         """Give a pane another solver or other settings.
 
         If the last step was a drag, it is solved again from where it began, so that the difference is seen at once.
         """
-        self._solvers[pane] = PinSolver(self.rig, choice)
-        self.solved[pane] = None
-        work = self._history.current
-        if work.began is None:
-            return
-        self.message = ""
-        try:
-            pose = self._solve(pane, work.began[pane].with_pins(work.poses[pane].pins), work.hand[pane])
-        except FacepinError as error:
-            self.message = str(error)
-            return
-        poses = (*work.poses[:pane], pose, *work.poses[pane + 1 :])
-        self._history.commit(f"Solve with {choice.kind.title}", replace(work, poses=poses))
+        before = self._history.current
+        panes = (*before.panes[:at], self._with_solver(at, before.panes[at], choice), *before.panes[at + 1 :])
+        self._show(f"Solve with {choice.kind.title}", replace(before, panes=panes), final=final)
 
-    def _forget(self) -> None:
+    def add_pane(self, choice: SolverChoice) -> None:
+        """Open one more pane: the active one's pose, with its last drag solved by another solver.
+
+        Raises
+        ------
+        FacepinError
+            When there are as many as fit.
+        """
+        before = self._history.current
+        if len(before.panes) >= MOST_PANES:
+            raise FacepinError(f"{MOST_PANES} panes are open already, no more fit")
+        at = len(before.panes)
+        pane = self._with_solver(at, before.panes[self.active], choice)
+        self._show("Add a pane", replace(before, panes=(*before.panes, pane)), final=True)
+        self._active = at
+
+    def close_pane(self, at: int) -> None:
+        """Close one of several panes."""
+        before = self._history.current
+        if len(before.panes) > 1:
+            panes = (*before.panes[:at], *before.panes[at + 1 :])
+            self._show("Close a pane", replace(before, panes=panes), final=True)
+
+    def keep_pane(self, at: int) -> None:
+        """Go on with one pane's pose alone."""
+        before = self._history.current
+        self._show("Keep one pane", replace(before, panes=(before.panes[at],)), final=True)
+        self._active = 0
+
+    def set_reference(self, weights: Floats | None) -> None:
+        """Measure the panes against weights (k,) from now on; None forgets them."""
+        label = "Forget the reference" if weights is None else "Set the reference"
+        self._show(label, replace(self._history.current, reference=weights), final=True)
+
+    def cancel(self) -> None:
+        """Drop the gesture in progress; the poses are exactly those before it."""
         self._preview = None
-        self.solved = [None] * len(self.solved)
 
-    @property
-    def _work(self) -> Work:
-        return self._preview or self._history.current
+    def undo(self) -> bool:
+        """Take the last undo step back; False when there is none."""
+        self._preview = None
+        return self._history.undo()
 
-    def _edited(self, before: Work, edit: Edit) -> Work:
-        """Return the work after an edit of `before`."""
-        pins = before.poses[0].pins if edit.pins is None else edit.pins
-        poses = tuple(pose.with_pins(pins) for pose in before.poses)
+    def redo(self) -> bool:
+        """Bring the last undone step back; False when there is none."""
+        self._preview = None
+        return self._history.redo()
+
+    def _show(self, label: str, work: Work, *, final: bool) -> None:
+        self._preview = None if final else work
+        if final and work is not self._history.current:
+            self._history.commit(label, work)
+
+    def _edited(self, panes: tuple[Pane, ...], edit: Edit) -> tuple[Pane, ...]:
+        """Return the panes after an edit."""
+        pins = panes[0].pose.pins if edit.pins is None else edit.pins
+        poses = [pane.pose.with_pins(pins) for pane in panes]
         if edit.weights is not None:
-            self.solved[self.active] = None
             pose = poses[self.active].with_weights(edit.weights)
             if edit.pins is None:
                 pose = snapped(self.rig, pose)
-            return _by_hand((*poses[: self.active], pose, *poses[self.active + 1 :]))
+                poses = [other.with_pins(pose.pins) for other in poses]
+            poses[self.active] = pose
+            return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
         if edit.solve:
-            solved = (self._solve(i, pose, before.hand[i]) for i, pose in enumerate(poses))
-            return Work(tuple(solved), before.hand, before.poses)
-        # A new pin holds what is there; without a pin that was there, what it made must not fall back.
-        placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in before.poses[0].pins}
-        return replace(before, poses=poses, began=None) if placed else _by_hand(poses)
+            return tuple(
+                self._solve(at, replace(pane, began=pane.pose), pose)
+                for at, (pane, pose) in enumerate(zip(panes, poses, strict=True))
+            )
+        # A new pin holds what is there; but what a removed one made must not fall back with the next drag.
+        placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in panes[0].pose.pins}
+        return tuple(
+            replace(pane, pose=pose, began=None) if placed else pane.by_hand(pose)
+            for pane, pose in zip(panes, poses, strict=True)
+        )
 
-    def _solve(self, pane: int, pose: Pose, hand: Floats) -> Pose:
-        """Return the pose with its weights carried towards its pins."""
-        solver = self._solvers[pane]
-        solved = solver.solve(pose.pins, hand if solver.choice.kind.afresh else pose.weights)
-        self.solved[pane] = solved
-        return pose.with_weights(solved.weights)
+    def _with_solver(self, at: int, pane: Pane, choice: SolverChoice) -> Pane:
+        """Return a pane with its last drag, if it was the last step, solved in another way."""
+        self.message = ""
+        chosen = replace(pane, choice=choice, solved=None)
+        if pane.began is None:
+            return chosen
+        try:
+            return self._solve(at, chosen, pane.began.with_pins(pane.pose.pins))
+        except FacepinError as error:
+            self.message = str(error)
+            return chosen
 
-
-def _by_hand(poses: Poses) -> Work:
-    return Work(poses, tuple(pose.weights for pose in poses))
+    def _solve(self, at: int, pane: Pane, start: Pose) -> Pane:
+        """Return a pane with the weights of `start` carried towards its pins."""
+        solver = self._solvers.get((at, pane.choice))
+        if solver is None:
+            if len(self._solvers) >= 4 * MOST_PANES:  # a setting that is being slid leaves a trail
+                self._solvers.clear()
+            solver = self._solvers[at, pane.choice] = PinSolver(self.rig, pane.choice)
+        solved = solver.solve(start.pins, pane.hand if pane.choice.kind.afresh else start.weights)
+        return replace(pane, pose=start.with_weights(solved.weights), solved=solved)

@@ -1,0 +1,121 @@
+"""All panels of one frame: what they show of the desk, and what the user wants of it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from imgui_bundle import imgui
+
+from facepin.core.camera import Viewport
+from facepin.core.pose import Pose
+from facepin.desk import Desk
+from facepin.panels import layout
+from facepin.panels.menu import menu_bar, pin_menu
+from facepin.panels.pane_title import pane_title
+from facepin.panels.requests import Request
+from facepin.panels.solver import solver_panel
+from facepin.panels.status import hint, loading_card, status_line
+from facepin.panels.theme import pane_colours
+from facepin.panels.weights import weights_panel
+
+
+def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
+    """Draw menu bar and status line, and what floats over everything.
+
+    Parameters
+    ----------
+    desk : Desk
+        What is shown.
+    recent : sequence of Path
+        Rigs opened lately.
+    seconds : float
+        Time of the last frame.
+    """
+    session = desk.session
+    asked = [menu_bar(desk.view, recent, session)]
+    timing = f"frame {seconds * 1e3:.1f} ms"
+    if session is not None and desk.stage is not None and session.pane.solved is not None:
+        solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
+        timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
+    rig = session.rig if session else None
+    status_line(rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ())
+    if desk.loading is not None:
+        asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
+    if desk.dialog is not None:
+        desk.dialog.draw()
+    if session is not None:
+        asked.append(_pin_popup(desk, session.pose))
+    return [request for request in asked if request is not None]
+
+
+def panels(desk: Desk, scale: float) -> list[Request]:
+    """Draw the docked panels; apply the edit they make, return what else they ask for.
+
+    Parameters
+    ----------
+    desk : Desk
+        What is shown.
+    scale : float
+        imgui units per pixel of a 1x screen.
+    """
+    session = desk.session
+    request = edit = None
+    if imgui.begin(layout.SOLVER)[0] and session is not None:
+        request = solver_panel(session.rig, session.pane, session.active)
+    imgui.end()
+    if imgui.begin(layout.WEIGHTS)[0] and session is not None:
+        edit = weights_panel(
+            session.rig,
+            session.panes,
+            session.active,
+            desk.view.weights,
+            scale,
+            in_gesture=session.in_gesture,
+        )
+    imgui.end()
+    if edit is not None:
+        desk.apply(edit)
+    return [request] if request is not None else []
+
+
+def over_picture(
+    desk: Desk, viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
+) -> list[Request]:
+    """Draw what stands over the picture: a title for each of several panes, a hint over an untouched face."""
+    session, stage = desk.session, desk.stage
+    if session is None or stage is None:
+        return []
+    asked: list[Request] = []
+    if len(viewports) > 1:
+        colours = pane_colours([pane.choice.kind.key for pane in session.panes])
+        for at, (pane, place) in enumerate(zip(session.panes, viewports, strict=False)):
+            asked += pane_title(
+                at,
+                pane,
+                stage.appraise(at),
+                desk.view.panes[at],
+                place,
+                pixel_ratio,
+                scale,
+                colour=colours[at],
+                active=at == session.active,
+                has_reference=session.work.reference is not None,
+            )
+    if not session.pose.pins and not session.pose.weights.any():
+        hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
+    return asked
+
+
+def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
+    """Draw the menu of the pin that was clicked with the right button, while it is open."""
+    if desk.view.pin_menu is None:
+        return None
+    if desk.view.pin_menu_opens:
+        imgui.open_popup("pin menu")
+        desk.view.pin_menu_opens = False
+    pin = next((pin for pin in pose.pins if pin.vertex == desk.view.pin_menu), None)
+    if pin is None or not imgui.begin_popup("pin menu"):
+        desk.view.pin_menu = None
+        return None
+    request = pin_menu(pin)
+    imgui.end_popup()
+    return request

@@ -1,0 +1,157 @@
+"""The title of one of several panes: its solver, how it does, and what the pane shows."""
+
+import dataclasses
+
+from imgui_bundle import imgui
+
+from facepin.core.camera import Viewport
+from facepin.panels.requests import ClosePane, KeepPane, Request, UseSolver
+from facepin.panels.theme import TEXT, WARNING, Colour, packed
+from facepin.panels.view import Ghost, PaneView
+from facepin.session.appraisal import Appraisal
+from facepin.session.session import Pane
+from facepin.session.solving import SolverChoice, choose
+from facepin.solvers import SOLVERS
+
+GHOSTS: dict[Ghost, str] = {
+    "none": "No ghost",
+    "neutral": "Ghost of the neutral",
+    "reference": "Ghost of the reference",
+}
+
+
+def pane_title(
+    at: int,
+    pane: Pane,
+    appraisal: Appraisal,
+    view: PaneView,
+    place: Viewport,
+    pixel_ratio: float,
+    scale: float,
+    *,
+    colour: Colour,
+    active: bool,
+    has_reference: bool,
+) -> list[Request]:
+    """Draw a pane's title and frame; return what the user asks for.
+
+    Parameters
+    ----------
+    at : int
+        Number of the pane.
+    pane, appraisal
+        What is shown, and how it was measured.
+    view : PaneView
+        Overlays, changed in place.
+    place : Viewport
+        Where the pane is, in framebuffer pixels.
+    pixel_ratio, scale : float
+        Framebuffer pixels per imgui unit, imgui units per pixel of a 1x screen.
+    colour : Colour
+        The pane's.
+    active : bool
+        Whether its numbers are the ones that the panels show.
+    has_reference : bool
+        Whether there is a pose to compare with.
+    """
+    left, top = place.x / pixel_ratio, place.y / pixel_ratio
+    right, bottom = left + place.width / pixel_ratio, top + place.height / pixel_ratio
+    draw = imgui.get_background_draw_list()
+    draw.add_rect_filled(
+        imgui.ImVec2(left, top), imgui.ImVec2(right, top + 3 * scale), packed(colour, 1.0 if active else 0.55)
+    )
+    if active:
+        inset = 0.5 * scale
+        draw.add_rect(
+            imgui.ImVec2(left + inset, top + inset),
+            imgui.ImVec2(right - inset, bottom - inset),
+            packed(colour, 0.8),
+            0.0,
+            scale,
+        )
+    imgui.set_next_window_pos(imgui.ImVec2(left + 4 * scale, top + 5 * scale))
+    imgui.set_next_window_size_constraints(
+        imgui.ImVec2(0, 0), imgui.ImVec2(max(right - left - 8 * scale, 1), max(bottom - top, 1))
+    )
+    imgui.set_next_window_bg_alpha(0.72)
+    flags = (
+        imgui.WindowFlags_.no_decoration
+        | imgui.WindowFlags_.always_auto_resize
+        | imgui.WindowFlags_.no_saved_settings
+        | imgui.WindowFlags_.no_docking
+        | imgui.WindowFlags_.no_move
+        | imgui.WindowFlags_.no_focus_on_appearing
+        | imgui.WindowFlags_.no_bring_to_front_on_focus
+    )
+    asked: list[Request] = []
+    imgui.push_style_var(imgui.StyleVar_.window_border_size, 0)
+    imgui.begin(f"##pane {at}", None, flags)
+    imgui.pop_style_var()
+    imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
+    if imgui.small_button(f"{pane.choice.kind.title}##title"):
+        imgui.open_popup("pane")
+    imgui.pop_style_color()
+    imgui.set_item_tooltip("Solver, overlays, keep or close this pane")
+    if short := _short(pane.choice):
+        imgui.same_line()
+        imgui.text_disabled(short)
+    _figures(pane, appraisal)
+    if imgui.begin_popup("pane"):
+        asked = _menu(at, pane, view, has_reference=has_reference)
+        imgui.end_popup()
+    imgui.end()
+    return asked
+
+
+def _short(choice: SolverChoice) -> str:
+    """Settings that are not the default, in a few words."""
+    usual = choice.kind.settings()
+    words = []
+    for field in dataclasses.fields(choice.settings):
+        value = getattr(choice.settings, field.name)
+        if value != getattr(usual, field.name):
+            shown = f"{value:.3g}" if isinstance(value, float) else str(value)
+            words.append(f"{field.name.replace('_', ' ')} {shown}")
+    return ", ".join(words + ["within limits"] * choice.keep_limits)
+
+
+def _figures(pane: Pane, appraisal: Appraisal) -> None:
+    """Two short lines: how far off, how calm, how many; what is out of range stands out."""
+    time = "" if pane.solved is None else f"{pane.solved.seconds * 1e3:.2f} ms"
+    imgui.text_colored(
+        imgui.ImVec4(*TEXT), f"pins {appraisal.pin_error:.2f} %   far {appraisal.far_motion:.2f} %   {time}"
+    )
+    imgui.set_item_tooltip(
+        "Mean distance of the pins from their goals, and largest move of a vertex that should rest,\n"
+        "both in per cent of the face height; time of the last solve."
+    )
+    imgui.text_colored(imgui.ImVec4(*TEXT), f"{appraisal.active} active")
+    if appraisal.out_of_range:
+        imgui.same_line()
+        imgui.text_colored(imgui.ImVec4(*WARNING), f"{appraisal.out_of_range} out of range")
+    if appraisal.e_rms is not None:
+        imgui.same_line()
+        imgui.text_colored(imgui.ImVec4(*TEXT), f"E_RMS {appraisal.e_rms:.3f}")
+
+
+def _menu(at: int, pane: Pane, view: PaneView, *, has_reference: bool) -> list[Request]:
+    asked: list[Request] = []
+    for key, kind in SOLVERS.items():
+        if imgui.menu_item_simple(kind.title, selected=kind is pane.choice.kind):
+            asked.append(UseSolver(at, choose(key, keep_limits=pane.choice.keep_limits)))
+    imgui.separator()
+    if imgui.menu_item_simple("Heat map of the move", selected=view.heat):
+        view.heat = not view.heat
+    if imgui.menu_item_simple("Wireframe", selected=view.wireframe):
+        view.wireframe = not view.wireframe
+    for ghost, title in GHOSTS.items():
+        if imgui.menu_item_simple(
+            title, selected=view.ghost == ghost, enabled=ghost != "reference" or has_reference
+        ):
+            view.ghost = ghost
+    imgui.separator()
+    if imgui.menu_item_simple("Keep this one"):
+        asked.append(KeepPane(at))
+    if imgui.menu_item_simple("Close"):
+        asked.append(ClosePane(at))
+    return asked

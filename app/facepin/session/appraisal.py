@@ -1,0 +1,72 @@
+"""What a pane's title says of its pose, measured while it is dragged."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from facepin.core import measures
+from facepin.core.arrays import Floats, Points
+from facepin.core.pose import Pin
+from facepin.core.rig import Rig
+from facepin.session.session import Pane
+
+NEAR_PINS = 0.15
+"""Without a reference pose, what is further from every pin than this share of the face height should rest."""
+
+
+@dataclass(frozen=True)
+class Appraisal:
+    """Figures of one pane; lengths in per cent of the face height."""
+
+    pin_error: float
+    far_motion: float
+    out_of_range: int
+    active: int
+    e_rms: float | None
+    """Against the reference (Eq. 9); None without one."""
+
+
+class Appraiser:
+    """Measures poses of one rig; keeps what depends on the reference and the pins' places only."""
+
+    def __init__(self, rig: Rig) -> None:
+        self._rig = rig
+        self._reference: Floats | None = None
+        self._places: tuple[int, ...] | None = None
+        self._resting: NDArray[np.intp] = np.zeros(0, np.intp)
+
+    def appraise(self, pane: Pane, positions: Points, reference: Floats | None) -> Appraisal:
+        """Measure a pane.
+
+        Parameters
+        ----------
+        pane : Pane
+            Weights and pins.
+        positions : (n, 3) float32
+            Its posed vertices.
+        reference : (k,) float64
+            Weights to measure against, or None.
+        """
+        rig, weights, pins = self._rig, pane.pose.weights, pane.pose.pins
+        resting = self._should_rest(pins, reference)
+        far = measures.far_motion(positions[resting], rig.neutral[resting], np.ones(len(resting), bool))
+        return Appraisal(
+            measures.percent(measures.pin_error(positions, pins), rig.height),
+            measures.percent(far, rig.height),
+            measures.out_of_range(weights, rig.limits),
+            measures.active(weights),
+            None if reference is None else measures.e_rms(weights, reference),
+        )
+
+    def _should_rest(self, pins: tuple[Pin, ...], reference: Floats | None) -> NDArray[np.intp]:
+        """Return the vertices that should not move, as the reference or else the distance to the pins says."""
+        places = tuple(pin.vertex for pin in pins) if reference is None else ()
+        if reference is not self._reference or places != self._places:
+            rig = self._rig
+            if reference is not None:
+                mask = measures.resting(rig.evaluate(reference), rig.neutral, rig.height)
+            else:
+                mask = measures.far_from_pins(rig.neutral, pins, NEAR_PINS * rig.height)
+            self._reference, self._places, self._resting = reference, places, np.flatnonzero(mask)
+        return self._resting

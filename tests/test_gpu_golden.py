@@ -9,6 +9,7 @@ from PIL import Image
 
 from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.normals import NormalField
+from facepin.core.picking import pick
 from facepin.core.rig import Rig
 from facepin.files import open_rig
 from facepin.gpu.canvas import Canvas
@@ -60,12 +61,14 @@ def test_smile_with_pins(gl: moderngl.Context, ada: Rig, request: pytest.Fixture
     view = Viewport(0, 0, SIZE, SIZE)
     scene.background.draw(canvas, [(view, camera)])
     mesh.draw(canvas, view, camera)
-    # The four vertices that smile and jaw move most, well apart; one on its goal, one seen through the face.
-    front = np.flatnonzero(ada.neutral[:, 2] > 0)
-    places = np.array([[3, -5, 5], [-3, -5, 5], [0, -9, 6], [-5, 2, 2]])
-    vertices = [front[np.argmin(np.linalg.norm(ada.neutral[front] - place, axis=1))] for place in places]
-    goals = positions[vertices] + np.array([[1.5, 1.5, 0], [-1, 2, 0], [0, -2, 1], [0, 0, 0]], np.float32)
-    layer.draw(canvas, view, camera, Markers(positions[vertices], goals, np.arange(4, dtype=np.uint8)))
+    # Mouth corner, brow, chin on its goal, and an ear that the head hides.
+    hits = [
+        pick(positions, ada.triangles, camera, view, pixel) for pixel in ((90, 176), (110, 58), (72, 225))
+    ]
+    far_ear = int(ada.triangles[next(part for part in ada.parts if part.name == "earR").triangles.start, 0])
+    vertices = [hit.vertex for hit in hits if hit] + [far_ear]
+    goals = positions[vertices] + np.float32([(2, 1, 0), (0, 1.5, 0), (0, 0, 0), (1, 2, 0)])
+    layer.draw(canvas, view, camera, Markers(positions[vertices], goals, np.uint8([3, 0, 2, 1])))
     image = canvas.read().copy()
     for item in (layer, canvas, mesh, scene):
         item.release()

@@ -1,0 +1,115 @@
+"""The benchmark measures what it says; how long things take is not tested."""
+
+import json
+from argparse import ArgumentParser
+from io import StringIO
+
+import moderngl
+import numpy as np
+import pytest
+
+from facepin.core.errors import FacepinError
+from facepin.core.rig_builder import build_rig
+from facepin.figures import bench
+from facepin.figures.animator import FRAMES, Protocol
+from facepin.figures.bench import as_json, as_tables, machine, measure
+from facepin.gpu.picture import open_context
+from facepin.session.solving import PinSolver, choose
+from facepin.solvers import SOLVERS
+from small_rigs import sheet
+
+FEW = Protocol(pins=3, shapes=2)
+
+
+@pytest.fixture(scope="module")
+def ctx() -> moderngl.Context:
+    with open_context() as context:
+        yield context
+
+
+def test_a_row_has_the_counts_of_the_rig_and_the_sum_of_its_parts(ctx: moderngl.Context) -> None:
+    rig = sheet()
+    row = measure(rig, ctx, protocol=FEW)
+    assert (row.vertices, row.edges, row.faces, row.shapes, row.pins) == (81, 144, 64, 4, 3)
+    parts = row.parts
+    assert parts.upload is not None and parts.draw is not None
+    assert all(
+        time > 0 for time in (row.t_pin, parts.solve, parts.deform, parts.normals, parts.upload, parts.draw)
+    )
+    assert row.t_edit >= max(parts.solve, parts.deform, parts.normals, parts.upload), (
+        "a sum of all in every frame"
+    )
+
+
+@pytest.mark.parametrize("key", SOLVERS)
+def test_every_solver_can_be_measured_and_every_pin_is_dragged(
+    key: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solved: list[int] = []
+    solve = PinSolver.solve
+    monkeypatch.setattr(
+        PinSolver, "solve", lambda self, pins, start: solved.append(len(pins)) or solve(self, pins, start)
+    )
+    row = measure(sheet(), choice=choose(key), protocol=FEW)
+    assert solved == [1] * (1 + FRAMES) + [2] * (1 + FRAMES) + [3] * (1 + FRAMES)
+    assert row.parts.draw is None and row.parts.upload is None
+
+
+def test_rigs_with_fewer_shapes_or_less_room_than_the_protocol_wants() -> None:
+    row = measure(sheet(shapes=1))
+    assert 1 <= row.pins <= 15
+
+
+def test_a_rig_that_does_not_move_is_refused() -> None:
+    rig = sheet()
+    still = build_rig("still", rig.neutral, rig.corners, rig.face_sizes, [("nothing", np.zeros((81, 3)))])
+    with pytest.raises(FacepinError, match="still: no shape moves the face"):
+        measure(still)
+
+
+def test_json_is_the_documented_shape() -> None:
+    row = measure(sheet(), protocol=FEW)
+    document = json.loads(json.dumps(as_json(machine(), [row])))
+    assert set(document) == {"machine", "rows"} and "no OpenGL" in document["machine"]
+    counts = ["vertices", "edges", "faces", "shapes", "pins"]
+    assert list(document["rows"][0]) == ["rig", *counts, "t_pin", "t_edit", "parts"]
+    assert list(document["rows"][0]["parts"]) == ["solve", "deform", "normals", "upload", "draw"]
+
+
+def test_the_tables_fit_a_terminal_and_show_the_papers_times() -> None:
+    from rich.console import Console
+
+    row = bench.BenchRow(
+        "stand-in for Face 4",
+        5692,
+        11282,
+        5584,
+        127,
+        15,
+        2e-3,
+        1e-3,
+        bench.Parts(1e-4, 2e-4, 3e-4, None, None),
+    )
+    written = StringIO()
+    Console(width=80, file=written).print(*as_tables("a machine", [row]), sep="\n")
+    text = written.getvalue()
+    assert "…" not in text
+    assert "stand-in for Face 4   2.00  1750   1.00  15.0  0.10   0.20    0.30      -    -" in text
+
+
+def test_the_command_measures_stand_ins_and_rigs(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measured: list[str] = []
+
+    def quick(rig: object, ctx: object) -> bench.BenchRow:
+        measured.append(rig.name)  # type: ignore[attr-defined]
+        return bench.BenchRow(measured[-1], 1, 1, 1, 1, 1, 1.0, 1.0, bench.Parts(1.0, 1.0, 1.0, 1.0, 1.0))
+
+    monkeypatch.setattr(bench, "measure", quick)
+    parser = ArgumentParser()
+    bench.add_options(parser)
+    bench.run(parser.parse_args(["--json"]))
+    rows = json.loads(capsys.readouterr().out)["rows"]
+    assert [row["rig"] for row in rows] == measured
+    assert measured[:5] == [f"stand-in for Face {i}" for i in range(1, 6)] and len(measured) == 6

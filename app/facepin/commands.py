@@ -179,10 +179,23 @@ def _compare(options: Namespace) -> None:
     print(*compare.run(options), sep="\n")
 
 
+def _bench_options(parser: ArgumentParser) -> None:
+    from facepin.figures import bench
+
+    bench.add_options(parser)
+
+
+def _bench(options: Namespace) -> None:
+    from facepin.figures import bench
+
+    bench.run(options)
+
+
 COMMANDS: dict[str, Command] = {
     "info": Command("say what is in a rig", _info_options, _info),
     "solve": Command("turn pins into weights and print them as JSON", _solve_options, _solve),
     "render": Command("draw one picture of a pose", _render_options, _render),
     "compare": Command("put solvers side by side: pictures, charts, poses", _compare_options, _compare),
+    "bench": Command("measure what a press and a drag frame cost", _bench_options, _bench),
     "export": Command("write the posed face as a model", _export_options, _export),
 }

@@ -82,13 +82,13 @@ def run(options: Namespace) -> None:
     from rich.console import Console
 
     with progress_line() as tell, context_or_word() as ctx:
+        tell("Opening")
+        rigs = [stand_in(row) for row in TABLE_1]
+        rigs += [open_rig(path) for path in options.rigs or [resource("assets", BUILTIN)]]
         rows = []
-        for row in TABLE_1:
-            tell(f"Measuring the {stand_in_name(row)}")
-            rows.append(measure(stand_in(row), ctx))
-        for path in options.rigs or [None]:
-            tell(f"Measuring {path.name if path else 'the built-in face'}")
-            rows.append(measure(open_rig(path or resource("assets", BUILTIN)), ctx))
+        for rig in rigs:
+            tell(f"Measuring {rig.name}")
+            rows.append(measure(rig, ctx))
         line = machine(ctx)
     if options.json:
         sys.stdout.write(json.dumps(as_json(line, rows), indent=2) + "\n")

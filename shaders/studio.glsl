@@ -3,7 +3,7 @@
 
 const vec3 KEY = normalize(vec3(-0.60, 0.70, 0.80)), KEY_LIGHT = vec3(1.20, 1.12, 1.02);
 const vec3 FILL = normalize(vec3(0.90, 0.10, 0.62)), FILL_LIGHT = vec3(0.17, 0.21, 0.28);
-const vec3 RIM = normalize(vec3(0.80, 0.45, -0.75)), RIM_LIGHT = vec3(0.75, 0.86, 1.05);
+const vec3 RIM = normalize(vec3(0.80, 0.45, -0.75)), RIM_LIGHT = vec3(0.62, 0.71, 0.87);
 const vec3 BACK = normalize(vec3(-0.95, 0.15, -0.55)), BACK_LIGHT = vec3(0.42, 0.36, 0.31);
 const vec3 SKY_LIGHT = vec3(0.30, 0.32, 0.37), GROUND_LIGHT = vec3(0.150, 0.125, 0.110);
 
@@ -27,6 +27,8 @@ float glint(vec3 n, vec3 to_eye, vec3 to_light, float nl, float a2)
 // Light that a point sends to the eye.  `open`: share of the room that the point sees.
 vec3 studio(vec3 n, vec3 to_eye, vec3 sky, vec3 albedo, float roughness, float open)
 {
+    albedo = min(albedo, 0.8);   // nothing is whiter than snow
+    open *= 0.35 + 0.65 * open;   // most light comes from in front, not from all around
     // What bounces about in a cavity takes on its colour: skin is red, not black, in its folds.
     vec3 room = open / (1.0 - albedo * (1.0 - open));
     vec3 lamps = mix(room, vec3(1.0), 0.35 * open);
@@ -48,5 +50,5 @@ vec3 studio(vec3 n, vec3 to_eye, vec3 sky, vec3 albedo, float roughness, float o
         shine += KEY_LIGHT * smoothstep(0.968, 0.978, dot(mirrored, KEY))
                + FILL_LIGHT * 1.5 * smoothstep(0.990, 0.994, dot(mirrored, FILL));
     }
-    return albedo * diffuse + shine * open * open;
+    return albedo * diffuse + shine * open;
 }

@@ -38,6 +38,10 @@ def test_the_file_counts_first() -> None:
     assert look.roughness == 0.9
 
 
+def test_white_is_no_colour() -> None:
+    assert material(part("skin", colour=(1.0, 1.0, 1.0)), coloured=False) == CLAY
+
+
 def test_clear_shells_are_left_out_unless_they_have_a_colour() -> None:
     assert material(part("M_EyeOcclusion"), coloured=False) is None
     assert material(part("lashL"), coloured=True) is not None

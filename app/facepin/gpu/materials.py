@@ -15,6 +15,8 @@ from facepin.gpu.eyes import paint_iris
 
 Colour = tuple[float, float, float]
 
+WHITE: Colour = (1.0, 1.0, 1.0)
+
 
 @dataclass(frozen=True)
 class Material:
@@ -83,11 +85,13 @@ def material(part: Part, coloured: bool) -> Material | None:
         The rig has vertex colours: the part's own colour is then not used.
     """
     named = by_name(part)
+    # White is what a file says whose colours are in a texture, or that does not care.
+    own = part.colour if part.colour != WHITE else None
     if named is None:
-        if part.colour is None and not coloured:
+        if own is None and not coloured:
             return None
         named = CLAY
-    colour = (1.0, 1.0, 1.0) if coloured else part.colour or named.colour
+    colour = WHITE if coloured else own or named.colour
     return Material(colour, named.roughness if part.roughness == Part.roughness else part.roughness)
 
 

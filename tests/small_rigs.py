@@ -7,7 +7,7 @@ from facepin.core.rig_builder import build_rig
 
 
 def sheet(columns: int = 9, rows: int = 9, shapes: int = 4, seed: int = 1) -> Rig:
-    """A flat sheet of quads, 2 units wide, facing +z, with smooth random shapes of which each moves a part."""
+    """A flat sheet of quads, 2 units wide, facing +z; each of its smooth random shapes moves a part."""
     x, y = np.meshgrid(np.linspace(-1, 1, columns), np.linspace(1, -1, rows))
     neutral = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
     at = np.arange(columns * rows).reshape(rows, columns)

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from driver import App, running
 from PIL import Image
 
+from driver import App, running
 from facepin.core.events import FilesDropped, PointerMoved, PointerReleased, Scrolled
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig

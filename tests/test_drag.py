@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
-from small_rigs import sheet
 
 from facepin.core.camera import Viewport, frame_points
 from facepin.core.events import KeyPressed, Modifiers, PointerMoved, PointerPressed, PointerReleased
 from facepin.core.pose import Pin, Pose, rest_pose
 from facepin.session.drag import DragTool, Sight
+from small_rigs import sheet
 
 RIG = sheet()
 VIEWPORT = Viewport(100, 50, 400, 400)

@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-from small_rigs import sheet
 
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin, pin_displacement, pin_rows
@@ -9,6 +8,7 @@ from facepin.session.session import Session
 from facepin.session.solving import PinSolver, choose
 from facepin.solvers import SOLVERS
 from facepin.solvers.interface import PinSystem, Solution, Solve, SolverKind
+from small_rigs import sheet
 
 RIG = sheet()
 
@@ -149,5 +149,5 @@ def test_screen_pins_constrain_what_the_screen_shows() -> None:
 
 
 def test_an_unknown_solver_is_refused_with_the_known_ones() -> None:
-    with pytest.raises(FacepinError, match="no solver 'magic'.*transpose"):
+    with pytest.raises(FacepinError, match=r"no solver 'magic'.*transpose"):
         choose("magic")

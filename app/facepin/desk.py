@@ -1,4 +1,4 @@
-"""What lies on the desk: the open rig, the camera on it, files being opened or saved, and requests carried out."""
+"""What lies on the desk: the open rig, cameras on it, files being opened or saved; carries out requests."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -112,7 +112,7 @@ class Desk:
         return self.cameras[self.session.active if self.session else 0]
 
     def look(self, camera: Camera, pane: int | None = None) -> None:
-        """Look at a pane (the active one for None) through another camera; at all of them while they are linked."""
+        """Look at a pane (the active one for None) through another camera; at all panes while linked."""
         if self.view.linked or self.session is None:
             self.cameras = [camera] * len(self.cameras)
         else:

@@ -1,4 +1,4 @@
-"""Gives each event to whoever has a right to it: keys, a gesture in progress, imgui, the drag tool, the camera."""
+"""Gives each event to whoever has a right to it: a gesture in progress, imgui, drag tool, camera."""
 
 from collections.abc import Sequence
 
@@ -35,7 +35,7 @@ class Router:
     ) -> list[Request]:
         """Let a frame's events happen: edits are applied, the camera is moved, other wishes are returned.
 
-        However many mouse events came, the face is solved once: the last step of a gesture holds all before it.
+        However many mouse events came, the face is solved once: the last step of a gesture holds all of it.
         """
         asked: list[Request] = []
         pending: Edit | None = None

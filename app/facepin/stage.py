@@ -13,7 +13,6 @@ from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
 from facepin.gpu.canvas import Canvas
-from facepin.gpu.canvas import Canvas
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
 from facepin.gpu.scene import PaneMesh, Scene
 from facepin.panels.view import PaneView

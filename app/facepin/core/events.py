@@ -75,4 +75,6 @@ class CloseRequested:
     """The window manager asked the window to close."""
 
 
-Event = PointerPressed | PointerMoved | PointerReleased | Scrolled | KeyPressed | FilesDropped | CloseRequested
+Event = (
+    PointerPressed | PointerMoved | PointerReleased | Scrolled | KeyPressed | FilesDropped | CloseRequested
+)

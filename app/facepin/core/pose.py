@@ -60,13 +60,13 @@ def as_vector(point: Floats) -> Vector:
 
 
 def pin_rows(rig: Rig, pins: tuple[Pin, ...]) -> Floats:
-    """Pin rows J, (r, k) float64 with three rows for a space pin and two for a screen pin, times sqrt(stiffness)."""
+    """Pin rows J, (r, k) float64: three for a space pin, two for a screen pin, times sqrt(stiffness)."""
     space = rig.rows_at([pin.vertex for pin in pins])
     return _project(space, pins)
 
 
 def pin_displacement(rig: Rig, pins: tuple[Pin, ...]) -> Floats:
-    """Displacement d (the paper's m), (r,) float64: goal minus neutral, projected and scaled as `pin_rows`."""
+    """Displacement d (the paper's m), (r,) float64: goal minus neutral, scaled as `pin_rows`."""
     goals = np.array([pin.goal for pin in pins], np.float64).reshape(-1, 3)
     rest = rig.neutral[[pin.vertex for pin in pins]].astype(np.float64)
     return _project((goals - rest).reshape(-1, 1), pins)[:, 0]

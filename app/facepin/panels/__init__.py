@@ -1,1 +1,1 @@
-"""imgui panels: functions of explicit arguments that return an Edit or a Request, and change nothing themselves."""
+"""imgui panels: functions of explicit arguments that return an Edit or a Request."""

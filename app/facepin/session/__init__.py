@@ -1,1 +1,1 @@
-"""What is being posed: the drag tool, the solving of its pins, panes and the undo history.  No window, no GL."""
+"""What is being posed: drag tool, solving, panes and undo history.  No window, no GL."""

@@ -60,7 +60,7 @@ class Appraiser:
         )
 
     def _should_rest(self, pins: tuple[Pin, ...], reference: Floats | None) -> NDArray[np.intp]:
-        """Return the vertices that should not move, as the reference or else the distance to the pins says."""
+        """Return the vertices that should not move, by the reference or else by the distance to the pins."""
         places = tuple(pin.vertex for pin in pins) if reference is None else ()
         if reference is not self._reference or places != self._places:
             rig = self._rig

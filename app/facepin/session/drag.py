@@ -73,8 +73,8 @@ class DragTool:
     def handle(self, event: Event, sight: Sight) -> Edit | None:
         """Take one event; return what it changes, or None.
 
-        A press on nothing takes no hold, so that the caller can give it to the camera.  Esc ends a gesture; the
-        caller then cancels the session's.
+        A press on nothing takes no hold, so that the caller can give it to the camera.  Esc ends a gesture;
+        the caller then cancels the session's.
         """
         match event:
             case PointerPressed(button="left") if self._hold is None:

@@ -10,8 +10,8 @@ from facepin.core.pose import Pin
 class Edit:
     """A change of pins, of weights, or of both.
 
-    An edit that is not `final` is a step of a gesture: it is shown, but the next one starts again from the pose in
-    which the gesture began, so a gesture ends as one undo step and does not depend on the path of the mouse.
+    An edit that is not `final` is a step of a gesture: it is shown, but the next one starts again from the
+    pose in which the gesture began, so a gesture ends as one undo step, whatever the path of the mouse.
     """
 
     label: str
@@ -21,5 +21,5 @@ class Edit:
     solve: bool = False
     """With `pins`: whether the weights follow the pins (a drag) or stay (placing or removing a pin)."""
     weights: Floats | None = None
-    """(k,) weights set by other means than a solver, for the active pane.  Without `pins`, the goals of all pins
-    follow their vertices."""
+    """(k,) weights set by other means than a solver, for the active pane.  Without `pins`, the goals of all
+    pins follow their vertices."""

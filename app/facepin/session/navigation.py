@@ -1,7 +1,7 @@
 """Moving the camera with the mouse: the habits of Maya and of Blender, as one table."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 
 from facepin.core.camera import Camera, Viewport
@@ -61,7 +61,7 @@ class Navigator:
     _motion: Motion | None = None
     _button: Button = "left"
     _at: tuple[float, float] = (0.0, 0.0)
-    _viewport: Viewport = Viewport(0, 0, 1, 1)
+    _viewport: Viewport = field(default_factory=lambda: Viewport(0, 0, 1, 1))
 
     @property
     def holding(self) -> bool:

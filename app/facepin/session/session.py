@@ -124,7 +124,7 @@ class Session:
     def choose_solver(self, at: int, choice: SolverChoice, *, final: bool = True) -> None:
         """Give a pane another solver or other settings.
 
-        If the last step was a drag, it is solved again from where it began, so that the difference is seen at once.
+        If the last step was a drag, it is solved again from where it began: the difference is seen at once.
         """
         before = self._history.current
         panes = (*before.panes[:at], self._with_solver(at, before.panes[at], choice), *before.panes[at + 1 :])

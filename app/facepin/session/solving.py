@@ -46,8 +46,8 @@ class Solved:
     weights: Floats
     """(k,) float64, finite, read-only."""
     pin_error: float
-    """Mean distance from the pins' vertices to their goals after the solve, in the rig's unit; across the line
-    of sight only for screen pins.  0 without pins."""
+    """Mean distance from the pins' vertices to their goals after the solve, in the rig's unit; for screen pins
+    across the line of sight only.  0 without pins."""
     seconds: float
     """Time of the solve itself."""
     notes: Mapping[str, float] = field(default_factory=dict)
@@ -85,7 +85,7 @@ class PinSolver:
                 f"{self.choice.kind.title} gave weights that are not finite; the last pose is kept"
             )
         if self.choice.keep_limits and not self.choice.kind.obeys_limits:
-            # A weight that began outside its limits may stay there: nothing is clipped behind the user's back.
+            # A weight that began outside its limits may stay there: nothing is clipped silently.
             low, high = np.minimum(self._rig.limits[:, 0], start), np.maximum(self._rig.limits[:, 1], start)
             weights = np.clip(weights, low, high)
         seconds = perf_counter() - began

@@ -66,7 +66,7 @@ def area_vectors(points: Points, diagonals: Numbers) -> Points:
     u -= points.take(a, axis=1, mode="clip")
     v = points.take(d, axis=1, mode="clip")
     v -= points.take(c, axis=1, mode="clip")
-    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+    return _cross(u, v)
 
 
 def _cut(corners: Indices, sizes: Indices) -> tuple[Numbers, Numbers]:
@@ -93,22 +93,23 @@ def _paired(triangles: Numbers, neutral: Points) -> tuple[Numbers, Numbers]:
     -------
     quads : (4, q), triangles : (3, t - 2 q)
     """
-    first, second = triangles[:, :-1], triangles[:, 1:]
-    shared = first[:, None] == second  # (corner of first, corner of second, pair)
-    alone, other = np.argmin(shared.any(axis=1), axis=0), np.argmin(shared.any(axis=0), axis=0)
-    pair = np.arange(first.shape[1])
-    p, q, r = (first[(alone + step) % 3, pair] for step in range(3))
-    o = second[other, pair]
-    loop = np.stack([p, q, o, r])
-    # The second triangle must run along the shared edge the other way, and the quad must be flat and convex.
-    fits = (shared.sum(axis=(0, 1)) == 2) & (second[(other + 1) % 3, pair] == r)
-    sides = neutral[np.roll(loop, -1, axis=0)] - neutral[loop]
-    corners = np.cross(np.roll(sides, 1, axis=0), sides)
-    normal = corners[0] / np.maximum(np.linalg.norm(corners[0], axis=1, keepdims=True), 1e-30)
-    fits &= ((corners * normal).sum(axis=2) > FLAT * np.linalg.norm(corners, axis=2)).all(axis=0)
+    number = np.arange(triangles.shape[1] - 1)
+    fits, loop = np.zeros(number.shape, np.bool_), np.zeros((4, *number.shape), np.intp)
+    for i, j in np.ndindex(3, 3):  # p, q, r is the first triangle; o, r, q the second
+        p, q, r = (triangles[(i + step) % 3, :-1] for step in range(3))
+        o, r_again, q_again = (triangles[(j + step) % 3, 1:] for step in range(3))
+        here = (q == q_again) & (r == r_again) & (o != p)
+        fits |= here
+        loop[:, here] = np.stack([p, q, o, r])[:, here]
+    points = np.ascontiguousarray(neutral.T)
+    sides = points[:, np.roll(loop, -1, axis=0)] - points[:, loop]
+    corners = _cross(np.roll(sides, 1, axis=1), sides)
+    length = _length(corners)
+    # Flat and convex: the four corners point the same way.
+    fits &= ((corners * corners[:, :1]).sum(axis=0) > FLAT * length * length[0]).all(axis=0)
     # In a run of triangles that could all pair up, pair the first two, the next two, …
-    begins = np.maximum.accumulate(np.where(fits, 0, pair + 1))
-    taken = np.flatnonzero(fits & ((pair - begins) % 2 == 0))
+    begins = np.maximum.accumulate(np.where(fits, 0, number + 1))
+    taken = np.flatnonzero(fits & ((number - begins) % 2 == 0))
     left = np.ones(triangles.shape[1], np.bool_)
     left[taken] = left[taken + 1] = False
     return loop[:, taken], triangles[:, left]
@@ -123,10 +124,10 @@ def _corner_weights(neutral: Points, quads: Numbers, triangles: Numbers, areas: 
     numbers = np.split(np.arange(areas.shape[1]), [quads.shape[1]])
     cell = np.concatenate([np.tile(own, len(cells)) for own, cells in zip(numbers, kinds, strict=True)])
 
-    points, count = neutral.astype(np.float64), len(neutral)
-    u, v = points[before] - points[at], points[after] - points[at]
-    angle = np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), (u * v).sum(axis=1))
-    size = np.linalg.norm(areas.astype(np.float64), axis=0)[cell]
+    points, count = np.ascontiguousarray(neutral.T), len(neutral)
+    u, v = points[:, before] - points[:, at], points[:, after] - points[:, at]
+    angle = np.arctan2(_length(_cross(u, v)), (u * v).sum(axis=0))
+    size = _length(areas)[cell]
     usual = np.bincount(at, size, count) / np.maximum(np.bincount(at, minlength=count), 1)
     size = np.maximum(size, SLIVER * usual[at])
     weight = np.divide(angle, size, out=np.zeros_like(angle), where=size > 0)
@@ -161,3 +162,15 @@ def _welded(sums: csr_array, areas: Points, same: Indices) -> csr_array:
     at, other = np.hstack(links)
     link = csr_array((np.ones(len(at), np.float32), (at, other)), shape=(len(order), len(order)))
     return csr_array(link @ sums)
+
+
+def _cross(u: Points, v: Points) -> Points:
+    """Cross products of vectors (3, …), components first."""
+    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+
+
+def _length(vectors: Points) -> Points:
+    """Lengths of vectors (3, …), components first."""
+    x, y, z = vectors
+    length: Points = np.sqrt(x * x + y * y + z * z)
+    return length

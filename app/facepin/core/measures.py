@@ -51,7 +51,7 @@ def pin_error(positions: Points, pins: tuple[Pin, ...]) -> float:
 
 def moves(positions: Points, origin: Points) -> Floats:
     """Return how far each vertex is from where it was, (n,) lengths: what a heat map shows."""
-    lengths: Floats = np.linalg.norm(positions - origin, axis=1).astype(np.float64)
+    lengths: Floats = np.linalg.norm(np.subtract(positions, origin, dtype=np.float64), axis=-1)
     return lengths
 
 

@@ -1,9 +1,10 @@
 """The simulated animator: Figure 4 of the paper without a human, the same on every machine.
 
-A reference pose is drawn by chance, pins are put where it moves the face most, and each pin in turn is dragged
-until it looks right from the front, while the earlier ones keep their goals.  The animator watches the screen:
-depth is not seen and stays as it was grabbed, and a vertex that lags behind its goal is pulled further.  The
-hand trembles around the place it means.  Solving and the start of each drag are those of the window.
+A reference pose is drawn by chance, pins are put where it moves the face most, and each pin in turn is
+dragged until it looks right from the front, while the earlier ones keep their goals.  The animator
+watches the screen: depth is not seen and stays as it was grabbed, and a vertex that lags behind its goal
+is pulled further.  The hand trembles around the place it means.  All solving, and where each drag starts,
+is as in the window.
 """
 
 from contextlib import suppress
@@ -25,6 +26,8 @@ PULL = 0.25
 """Share of what still misses on screen by which the cursor moves in a frame."""
 WEAKEST, STRONGEST = 0.4, 1.0
 """Range of the weights of a reference pose, as shares of their limit."""
+EDGE = 0.5
+"""How far beyond the neutral the screen reaches, as a share of the face height: there the mouse ends."""
 SPACING = 0.06
 """Least distance of two pins on the neutral, as a share of the face height."""
 
@@ -66,8 +69,8 @@ class Outcome:
     """Mean distance on screen of the pins from where the reference has them, of the face height."""
     vertex_error_percent: float
     far_motion_percent: float
-    out_of_range: int
-    active: int
+    out_of_range: float
+    active: float
     travel: float
     milliseconds: float
     """Median of the solves."""
@@ -128,14 +131,16 @@ def animate(rig: Rig, task: Task, choice: SolverChoice, freedom: Freedom) -> Out
     weights = by_hand = np.zeros(rig.shape_count)
     held: tuple[Pin, ...] = ()
     path, times = [weights], []
+    margin = EDGE * rig.height
+    lowest, highest = rig.neutral.min(axis=0)[:2] - margin, rig.neutral.max(axis=0)[:2] + margin
     for vertex, tremor in zip(task.vertices, task.tremor, strict=True):
         rows, rest = rig.rows_at([vertex]), rig.neutral[vertex].astype(np.float64)
         start = by_hand if choice.kind.afresh else weights
         at = rows @ weights + rest
         aim, pin = at.copy(), Pin(vertex, as_vector(at), freedom, FRONT_AXES)
         for shake in tremor:
-            aim[:2] += PULL * (task.wanted[vertex, :2] - at[:2])
-            pin = replace(pin, goal=as_vector(aim + [*shake, 0.0]))
+            aim[:2] = np.clip(aim[:2] + PULL * (task.wanted[vertex, :2] - at[:2]), lowest, highest)
+            pin = replace(pin, goal=as_vector(aim + np.append(shake, 0.0)))
             # A solver that fails leaves the face as it is, here as in the window.
             with suppress(FacepinError):
                 solved = solver.solve((*held, pin), start)

@@ -52,9 +52,9 @@ class SolverKind:
     """Does the work that needs J only (a factorisation), so that a drag frame does the rest."""
     obeys_limits: bool = False
     afresh: bool = False
-    """Solves all pins afresh on every drag: its start is the last pose that no drag made (the neutral, sliders,
-    a loaded pose), not the weights at the press.  A new pin starts where its vertex is, which leaves the answer as
-    it was: nothing jumps at a press, and the order of the drags leaves no trace."""
+    """Solves all pins afresh on every drag: its start is the last pose that no drag made (the neutral,
+    sliders, a loaded pose), not the weights at the press.  A new pin starts where its vertex is, which leaves
+    the answer as it was: nothing jumps at a press, and the order of the drags leaves no trace."""
 
 
 def setting(

@@ -17,7 +17,7 @@ class SparseSettings:
     """The price of motion."""
 
     price: float = setting(
-        0.2,
+        0.1,
         "What it costs to use a shape: more leaves fewer shapes active, less brings the pins closer.",
         low=0.0,
         high=10.0,
@@ -32,10 +32,10 @@ def prepare(system: PinSystem, settings: SparseSettings) -> Solve:
     travel of a slider: a shape that moves the face by a millimetre may go all the way for what a tenth of a
     centimetre costs.  λ (`price`) has no unit; √scale is the rms of all mⱼ.
 
-    w0 is the last pose that no drag made (see `SolverKind.afresh`).  For most faces that is the neutral: w0 = 0,
-    and the price is λⱼ wⱼ.  What was set by hand is not punished: lowering it costs nothing, and while every
-    goal is where its vertex was at w0, the answer is w0.  Where limits allow w < 0 and w0 ≤ 0, going down costs
-    as much as going up.  Shapes that move no pin keep w0.
+    w0 is the last pose that no drag made (see `SolverKind.afresh`).  For most faces that is the neutral:
+    w0 = 0, and the price is λⱼ wⱼ.  What was set by hand is not punished: lowering it costs nothing, and
+    while every goal is where its vertex was at w0, the answer is w0.  Where limits allow w < 0 and w0 ≤ 0,
+    going down costs as much as going up.  Shapes that move no pin keep w0.
 
     Notes: `steps` of the active-set method, and `optimality` (see `facepin.solvers.boxed.Minimum`).
     """

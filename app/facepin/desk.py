@@ -40,6 +40,8 @@ from facepin.session.session import Session, Work
 from facepin.session.solving import SolverChoice
 from facepin.stage import Stage
 
+ChartWriter = Callable[[Session, Path], None]
+
 RANDOM_SHAPES = 4
 """Active shapes of a random reference pose."""
 
@@ -65,6 +67,7 @@ class Desk:
         *,
         native_dialogs: bool,
         pictures: Path,
+        chart_writer: ChartWriter | None,
     ) -> None:
         """Start with nothing open.
 
@@ -80,6 +83,8 @@ class Desk:
             Use the platform's file dialogs.
         pictures : Path
             Folder that saved pictures go to.
+        chart_writer : callable
+            Writes the charts of a session into a folder.
         """
         self.view = view
         self.tool = DragTool()
@@ -97,6 +102,7 @@ class Desk:
         self._choices = choices
         self._native = native_dialogs
         self._pictures = pictures
+        self._chart_writer = chart_writer
         self._asked: Command | None = None
         self._saved: Work | None = None
         self._first_pose: Callable[[Rig], Pose] | None = None
@@ -206,6 +212,10 @@ class Desk:
                 session.set_reference(pose.weights)
             case Command.REFERENCE_RANDOM:
                 session.set_reference(_random_weights(rig))
+            case Command.CHART:
+                self.view.chart = not self.view.chart
+            case Command.SAVE_CHART:
+                self._save_chart(session)
             case Command.FORGET_REFERENCE:
                 session.set_reference(None)
             case SetPin():
@@ -301,13 +311,25 @@ class Desk:
         """Write what the active pane shows, without pins and panels, under a name that is free."""
         size = (max(round(viewport.width), 1), max(round(viewport.height), 1))
         image = draw_picture(stage.mesh(stage.session.active), self.camera, size)
-        self._pictures.mkdir(parents=True, exist_ok=True)
-        name = stage.session.rig.name
-        number = 1
-        while (path := self._pictures / f"{name}-{number:03}.png").exists():
-            number += 1
+        path = self._free_name(stage.session.rig.name, ".png")
         atomic_write(path, png_bytes(image))
         self.say(f"Saved {path}")
+
+    def _save_chart(self, session: Session) -> None:
+        """Write the charts of all panes: pictures, drawings and a table."""
+        if self._chart_writer is None:
+            raise FacepinError("charts cannot be written here")
+        folder = self._free_name(f"{session.rig.name}-chart", "")
+        self._chart_writer(session, folder)
+        self.say(f"Saved {folder}")
+
+    def _free_name(self, name: str, suffix: str) -> Path:
+        """Return a path in the folder of pictures that is not taken; the folder is made."""
+        self._pictures.mkdir(parents=True, exist_ok=True)
+        number = 1
+        while (path := self._pictures / f"{name}-{number:03}{suffix}").exists():
+            number += 1
+        return path
 
     def sync(self) -> None:
         """Have a camera and a view for every pane, also after undo brought panes back."""

@@ -9,6 +9,7 @@ from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.desk import Desk
 from facepin.panels import layout
+from facepin.panels.chart import chart_window
 from facepin.panels.menu import menu_bar, pin_menu
 from facepin.panels.pane_title import pane_title
 from facepin.panels.requests import Request
@@ -74,7 +75,10 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     imgui.end()
     if edit is not None:
         desk.apply(edit)
-    return [request] if request is not None else []
+    chart: Request | None = None
+    if desk.view.chart and session is not None:
+        desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
+    return [asked for asked in (request, chart) if asked is not None]
 
 
 def over_picture(

@@ -12,7 +12,7 @@ from facepin import interface
 from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.desk import Desk
+from facepin.desk import ChartWriter, Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
 from facepin.gpu.canvas import Canvas
 from facepin.options import BUILTIN
@@ -50,6 +50,8 @@ class Start:
     """Where preferences and the panel layout are kept; None keeps nothing."""
     pictures: Path = Path()
     native_dialogs: bool = True
+    chart_writer: ChartWriter | None = None
+    """Writes the charts of a session into a folder."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         start.choices,
         native_dialogs=start.native_dialogs and has_native_dialogs(),
         pictures=start.pictures,
+        chart_writer=start.chart_writer,
     )
     if complaint:
         desk.say(complaint, error=True)

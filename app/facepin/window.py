@@ -11,7 +11,7 @@ from typing import Any, Self
 
 # glfw must come after imgui_bundle: the two then share one GLFW library, and imgui's compiled backend can be
 # given the address of a window that pyGLFW made.
-from imgui_bundle import imgui  # isort: skip
+from imgui_bundle import imgui, implot  # isort: skip
 import glfw
 import moderngl
 
@@ -106,6 +106,7 @@ class Window:
         if not windowless:  # there, events come from `inject` alone
             self._listen()
         imgui.create_context()
+        implot.create_context()
         # imgui chains to the callbacks above, so both hear everything.
         self._address = ctypes.cast(self._handle, ctypes.c_void_p).value or 0
         imgui.backends.glfw_init_for_opengl(self._address, True)
@@ -119,6 +120,7 @@ class Window:
     ) -> None:
         imgui.backends.opengl3_shutdown()
         imgui.backends.glfw_shutdown()
+        implot.destroy_context()
         imgui.destroy_context()
         self.ctx.release()
         glfw.destroy_window(self._handle)

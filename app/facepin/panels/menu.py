@@ -106,7 +106,9 @@ def _compare(view: View, session: Session) -> Request | None:
     imgui.separator()
     for command in (Command.REFERENCE_FROM_POSE, Command.REFERENCE_FROM_FILE, Command.REFERENCE_RANDOM):
         asked = _item(command) or asked
-    return _item(Command.FORGET_REFERENCE, session.work.reference is not None) or asked
+    asked = _item(Command.FORGET_REFERENCE, session.work.reference is not None) or asked
+    imgui.separator()
+    return _item(Command.CHART) or asked
 
 
 def pin_menu(pin: Pin) -> SetPin | None:

@@ -35,6 +35,8 @@ class Command(Enum):
     REFERENCE_FROM_POSE = "Take this pose as the reference", ()
     REFERENCE_FROM_FILE = "Reference from a file…", ()
     REFERENCE_RANDOM = "Random reference", ()
+    CHART = "Chart of weights and errors", ("F4",)
+    SAVE_CHART = "Save the chart", ()
     FORGET_REFERENCE = "Forget the reference", ()
 
     @property

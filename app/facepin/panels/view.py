@@ -50,5 +50,7 @@ class View:
     """It was asked for just now."""
     panes: list[PaneView] = field(default_factory=lambda: [PaneView()])
     """One per pane, or more: a pane that comes back finds its own."""
+    chart: bool = False
+    """Whether the chart window is open."""
     linked: bool = True
     """One camera for all panes."""

@@ -12,6 +12,10 @@ DENSE_BYTES = 2**29
 """Memory that written-out columns may take; the densest go first."""
 
 
+WORTH_IT = 0.25
+"""Least share of all non-zeros in such columns, for setting them apart copies the others."""
+
+
 class Columns:
     """Products with B, fast for dense and sparse columns, for many and for few of them.
 
@@ -25,7 +29,9 @@ class Columns:
         self._starts, self._indices, self._data = deltas.indptr, deltas.indices, deltas.data
         filled = np.diff(deltas.indptr)
         densest = np.argsort(-filled, kind="stable")[: DENSE_BYTES // (4 * size)]
-        self._dense = np.sort(densest[filled[densest] >= DENSE * size])
+        densest = densest[filled[densest] >= DENSE * size]
+        worth_it = filled[densest].sum() >= WORTH_IT * filled.sum()
+        self._dense = np.sort(densest) if worth_it else densest[:0]
         self._sparse = np.setdiff1d(np.arange(self._count), self._dense)
         self._written = np.zeros((len(self._dense), size), np.float32)
         for row, j in zip(self._written, self._dense, strict=True):

@@ -9,12 +9,15 @@ import sys
 from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from facepin import __version__
 from facepin.commands import COMMANDS
 from facepin.core.errors import FacepinError
 from facepin.options import first_pose, solver_choices
+
+if TYPE_CHECKING:
+    from facepin.session.session import Session
 
 
 class _Parser(ArgumentParser):
@@ -58,6 +61,7 @@ def _window_parser() -> ArgumentParser:
         "rig", nargs="?", type=Path, metavar="RIG", help="face to open (default: the built-in one)"
     )
     parser.add_argument("--solver", metavar="KEY", help="solver to begin with (default: the last one used)")
+    parser.add_argument("--compare", metavar="KEY,KEY", help="up to four solvers side by side")
     parser.add_argument("--pins", type=Path, metavar="FILE", help="pins file to begin with")
     parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file to begin with")
     return parser
@@ -73,18 +77,23 @@ def _window(options: Namespace) -> None:
 
     from facepin.files.preferences import read_preferences
     from facepin.main_loop import Start, run
+    from facepin.session.session import MOST_PANES
     from facepin.solvers import SOLVERS
     from facepin.window import NoDisplay, Window
 
     settings = user_config_path("facepin", appauthor=False)
     remembered = read_preferences(settings / "preferences.json")[0].solver
-    key = options.solver or (remembered if remembered in SOLVERS else "transpose")
+    keys = options.compare or options.solver or (remembered if remembered in SOLVERS else "transpose")
+    choices = solver_choices(keys, [], False)
+    if len(choices) > MOST_PANES:
+        raise FacepinError(f"{len(choices)} solvers do not fit side by side, {MOST_PANES} do: '{keys}'")
     start = Start(
-        solver_choices(key, [], False)[:1],
+        choices,
         options.rig,
         lambda rig: first_pose(rig, options.pose, options.pins),
         settings,
         user_pictures_path() / "Facepin",
+        chart_writer=_write_charts,
     )
     try:
         window = Window("Facepin", (1280, 720))
@@ -96,6 +105,13 @@ def _window(options: Namespace) -> None:
         return
     with window:
         run(window, start)
+
+
+def _write_charts(session: "Session", folder: Path) -> None:
+    """Write charts; what draws them is loaded when they are asked for."""
+    from facepin.figures.live import write_session_charts
+
+    write_session_charts(session, folder)
 
 
 if __name__ == "__main__":

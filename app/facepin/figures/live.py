@@ -1,0 +1,48 @@
+"""The charts of what the window shows, as files."""
+
+import csv
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+
+from facepin.core.errors import FacepinError
+from facepin.core.measures import e_rms
+from facepin.figures.charts import Series, error_charts, number, slider_panels, weight_bars, write_chart
+from facepin.files.atomic import atomic_write
+from facepin.session.session import Session
+from facepin.solvers.colours import INKS, REFERENCE
+
+
+def write_session_charts(session: Session, folder: Path) -> None:
+    """Write the weights of all panes into `folder`: sliders, bars and, with a reference, errors; weights.csv.
+
+    Raises
+    ------
+    FacepinError
+        If the folder cannot be made or a file cannot be written.
+    """
+    rig, reference = session.rig, session.work.reference
+    series = []
+    for at, pane in enumerate(session.panes, 1):
+        remark = "" if reference is None else f"$E_{{RMS}}$ {number(e_rms(pane.pose.weights, reference))}"
+        ink = INKS[pane.choice.kind.key]
+        series.append(Series(f"{at} {pane.choice.kind.title}", ink, pane.pose.weights, remark))
+    everything = series if reference is None else [Series("Reference", REFERENCE, reference), *series]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FacepinError(f"{folder}: cannot be made: {error.strerror}") from error
+    note = (
+        f"{rig.name}: {rig.vertex_count:,} vertices, {rig.shape_count} shapes; {len(session.pose.pins)} pins"
+    )
+    write_chart(folder, "sliders", slider_panels(rig.shape_names, rig.limits, everything, note))
+    write_chart(folder, "weights", weight_bars(rig.shape_names, rig.limits, everything, note))
+    if reference is not None:
+        write_chart(folder, "errors", error_charts(rig.shape_names, reference, series, note))
+    table = StringIO()
+    rows = np.stack([each.weights for each in everything], axis=1).tolist()
+    writer = csv.writer(table, lineterminator="\n")
+    writer.writerow(["shape", *(each.title for each in everything)])
+    writer.writerows([name, *row] for name, row in zip(rig.shape_names, rows, strict=True))
+    atomic_write(folder / "weights.csv", table.getvalue().encode())

@@ -113,7 +113,7 @@ def running(
         loop = frames(window, start)
         app = App(window, loop, next(loop))
         if wait:
-            app.until(lambda: app.desk.stage is not None or app.desk.is_error)
-            app.step(frames=4)
+            app.until(lambda: app.desk.loading is None)
+            app.until(lambda: app.desk.stage is None or (app.desk.stage.refined and not app.frame.drawn))
         yield app
         loop.close()

@@ -14,7 +14,7 @@ CAMERA = frame_points(RIG.neutral, 1.0).orbited(0.3, 0.2)
 
 def sight(pose: Pose | None = None, **more: object) -> Sight:
     pose = pose or rest_pose(RIG)
-    return Sight(RIG, pose, RIG.evaluate(pose.weights), CAMERA, VIEWPORT, **more)
+    return Sight(RIG, RIG.triangles, pose, RIG.evaluate(pose.weights), CAMERA, VIEWPORT, **more)
 
 
 def pixel_of(vertex: int) -> tuple[float, float]:

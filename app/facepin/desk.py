@@ -310,6 +310,8 @@ class Desk:
     def _save_picture(self, stage: Stage, viewport: Viewport) -> None:
         """Write what the active pane shows, without pins and panels, under a name that is free."""
         size = (max(round(viewport.width), 1), max(round(viewport.height), 1))
+        while not stage.refined:
+            stage.refine()
         image = draw_picture(stage.mesh(stage.session.active), self.camera, size)
         path = self._free_name(stage.session.rig.name, ".png")
         atomic_write(path, png_bytes(image))

@@ -108,7 +108,10 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         busy = desk.loading is not None or desk.dialog is not None
         settling = SETTLE if events or busy else settling - 1
         if settling < 0:
-            wait = IDLE_WAIT
+            # Nothing to do: time for what makes the picture better, then sleep.
+            better = desk.stage is not None and not desk.stage.refined and desk.stage.refine()
+            settling = 1 if better else -1
+            wait = IDLE_WAIT if desk.stage is None or desk.stage.refined else 0.0
             yield Frame(desk, viewport, viewports, False, 0.0)
             continue
         wait = BUSY_WAIT if busy else 0.0
@@ -213,4 +216,4 @@ def _picture_key(
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
     hands = (tool.selected, tool.hovered, tool.held)
-    return (stage, work, canvas, size, viewports, tuple(desk.cameras), overlays, hands)
+    return (stage, stage.refined, work, canvas, size, viewports, tuple(desk.cameras), overlays, hands)

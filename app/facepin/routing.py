@@ -121,6 +121,7 @@ class Router:
         pane = min(self._pane, len(viewports) - 1, len(stage.session.panes) - 1)
         return Sight(
             stage.session.rig,
+            stage.triangles,
             stage.session.panes[pane].pose,
             stage.positions(pane),
             desk.cameras[pane],

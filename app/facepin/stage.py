@@ -7,13 +7,14 @@ from time import perf_counter
 import moderngl
 import numpy as np
 
-from facepin.core.arrays import Floats, Points
+from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.camera import Camera, Viewport
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
+from facepin.gpu.materials import material
 from facepin.gpu.scene import PaneMesh, Scene
 from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
@@ -41,9 +42,25 @@ class Stage:
         """Time of the last deformation with normals and upload, all panes."""
         self._scene = Scene(ctx, session.rig)
         self._markers = MarkerLayer(ctx)
+        shown = [
+            session.rig.triangles[part.triangles.start : part.triangles.stop]
+            for part in session.rig.parts
+            if material(part, session.rig.colours is not None) is not None
+        ]
+        self.triangles: Indices = frozen(np.concatenate(shown) if shown else session.rig.triangles, np.int32)
+        """(t, 3) what is drawn, hence what can be pressed."""
         self._appraiser = Appraiser(session.rig)
         self._shown = [_Shown(Deformer(session.rig), NormalField(session.rig), PaneMesh(self._scene))]
         self.update()
+
+    @property
+    def refined(self) -> bool:
+        """Whether `refine` has nothing left to do."""
+        return self._scene.refined
+
+    def refine(self) -> bool:
+        """Do some of the work that pictures get better by, a few milliseconds; return whether they look new."""
+        return self._scene.refine()
 
     def update(self) -> bool:
         """Deform what has new weights and send it to the graphics card; return whether anything had."""

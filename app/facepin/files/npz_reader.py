@@ -1,6 +1,7 @@
 """Rigs from numpy archives.  Headers are checked before anything is inflated; nothing is ever unpickled."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,8 @@ def read_npz(path: Path, options: ReadOptions) -> Rig:
     """Read a rig from `neutral` (n, 3), `faces` (m, 3 or 4; -1 fills up) and `deltas` (k, n, 3).
 
     Optional: `names` (k); `part` (n) with `part_names`, or `region` with `region_names`: the part of every
-    vertex, a face belongs to that of its first corner; `part_colours`, a row per part; `colors` or `colours`
-    (n, 3); `weights` (k).  Colours are sRGB, 0..1 or bytes.  What does not fit is left out with a warning.
+    vertex, a face belongs to that of its first corner; `part_colours` and `part_mats` (roughness first),
+    a row per part; `colors` or `colours` (n, 3); `weights` (k).  Colours are sRGB, 0..1 or bytes.  What does not fit is left out with a warning.
 
     Raises
     ------
@@ -103,13 +104,15 @@ class Extras:
             if names is None or numbers.min() < 0 or numbers.max() >= len(names):
                 self.warnings.append(f"array {key!r} is ignored: its numbers need an array '{key}_names'")
                 continue
-            colours = self._fitting(f"{key}_colours", "fu", (len(names), 3))
             looks = [PartLook(name) for name in names]
+            colours = self._fitting(f"{key}_colours", "fu", (len(names), 3))
             if colours is not None:
-                looks = [
-                    PartLook(name, (float(r), float(g), float(b)))
-                    for name, (r, g, b) in zip(names, _unit(colours), strict=True)
-                ]
+                tuples = [(float(r), float(g), float(b)) for r, g, b in _unit(colours)]
+                looks = [replace(look, colour=colour) for look, colour in zip(looks, tuples, strict=True)]
+            mats = self._fitting(f"{key}_mats", "f", (len(names), 3))
+            if mats is not None:
+                rough = np.clip(mats[:, 0], 0, 1).tolist()
+                looks = [replace(look, roughness=value) for look, value in zip(looks, rough, strict=True)]
             return looks, numbers.astype(np.intp)
         return [], None
 

@@ -5,7 +5,7 @@ from math import hypot
 
 import numpy as np
 
-from facepin.core.arrays import Points
+from facepin.core.arrays import Indices, Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.events import Event, KeyPressed, PointerMoved, PointerPressed, PointerReleased
 from facepin.core.picking import pick
@@ -24,6 +24,8 @@ class Sight:
     """What the tool needs to know of the pane under the mouse: what is seen there and how."""
 
     rig: Rig
+    triangles: Indices
+    """(t, 3) those that are drawn: what is not seen can't be pressed."""
     pose: Pose
     """As it is at the last undo step when a gesture begins, as it is shown while one goes on."""
     positions: Points
@@ -95,7 +97,7 @@ class DragTool:
         if vertex is not None:
             self._take(_Hold(vertex, sight.pose.pins, False, pixel, sight), event)
             return None
-        hit = pick(sight.positions, sight.rig.triangles, sight.camera, sight.viewport, pixel)
+        hit = pick(sight.positions, sight.triangles, sight.camera, sight.viewport, pixel)
         if hit is None:
             self.selected = frozenset()
             return None

@@ -179,6 +179,18 @@ def _compare(options: Namespace) -> None:
     print(*compare.run(options), sep="\n")
 
 
+def _study_options(parser: ArgumentParser) -> None:
+    from facepin.figures import study
+
+    study.add_options(parser)
+
+
+def _study(options: Namespace) -> None:
+    from facepin.figures import study
+
+    study.run(options)
+
+
 def _bench_options(parser: ArgumentParser) -> None:
     from facepin.figures import bench
 
@@ -191,11 +203,25 @@ def _bench(options: Namespace) -> None:
     bench.run(options)
 
 
+def _figures_options(parser: ArgumentParser) -> None:
+    from facepin.figures import paper
+
+    paper.add_options(parser)
+
+
+def _figures(options: Namespace) -> None:
+    from facepin.figures import paper
+
+    print(paper.run(options))
+
+
 COMMANDS: dict[str, Command] = {
     "info": Command("say what is in a rig", _info_options, _info),
     "solve": Command("turn pins into weights and print them as JSON", _solve_options, _solve),
     "render": Command("draw one picture of a pose", _render_options, _render),
     "compare": Command("put solvers side by side: pictures, charts, poses", _compare_options, _compare),
+    "study": Command("let a simulated animator pose a face with every solver", _study_options, _study),
     "bench": Command("measure what a press and a drag frame cost", _bench_options, _bench),
+    "figures": Command("remake the paper's figures and tables on a page", _figures_options, _figures),
     "export": Command("write the posed face as a model", _export_options, _export),
 }

@@ -33,6 +33,7 @@ MOST_NAMES = 70
 """With more shapes than this, charts name only the strongest."""
 STRETCH = 2.5
 """Weights beyond this are shown on a scale that is even up to 1 and logarithmic beyond."""
+LEAST_SINGULAR = 1e-4
 SLIDER_RANGE = (-1.0, 2.0)
 """Bars of sliders are cut here; the number says how far they go."""
 
@@ -133,7 +134,7 @@ def number(value: float) -> str:
     return f"{value:,.{max(2 - int(np.floor(np.log10(size))), 0)}f}"
 
 
-def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]) -> "Figure":
+def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series], note: str = "") -> "Figure":
     """Draw the sliders of several sets of weights side by side (Figure 3): name, bar and number.
 
     Rows are the same in all panels: the shapes that any of them uses most, at most `MOST_SLIDERS`.
@@ -143,7 +144,7 @@ def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]
     rows = strongest([each.weights for each in series], MOST_SLIDERS)
     low, high = _slider_reach(limits, series)
     # Places in inches: what has to line up in every row is too much for an automatic layout.
-    name_width, bar_width, number_width, top, bottom = 1.45, 1.25, 0.65, 0.45, 0.55
+    name_width, bar_width, number_width, top, bottom = 1.45, 1.25, 0.65, 0.45, 0.75
     width = name_width + len(series) * (bar_width + number_width)
     inner = 0.2 * max(len(rows), 1)
     height = top + inner + bottom
@@ -162,6 +163,7 @@ def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]
             panel.spines["left"].set_visible(False)
             hidden = np.delete(np.abs(each.weights), rows)
             panel.set_xlabel(_rest(hidden), fontsize=7.5, loc="left")
+        _note(figure, note)
     return figure
 
 
@@ -215,7 +217,7 @@ def _weight(weight: float) -> str:
     return text.replace("-0.00", "0.00").replace("-", "−")
 
 
-def weight_bars(names: Sequence[str], limits: Floats, series: Sequence[Series]) -> "Figure":
+def weight_bars(names: Sequence[str], limits: Floats, series: Sequence[Series], note: str = "") -> "Figure":
     """Draw all weights as bars, one row for each set of weights (the charts of Figure 4)."""
     from matplotlib.figure import Figure
 
@@ -235,16 +237,19 @@ def weight_bars(names: Sequence[str], limits: Floats, series: Sequence[Series]) 
             row.axhline(0, color=FAINT, linewidth=0.7)
             row.set_title(each.title, color=each.ink.colour)
             row.set_title(each.remark, loc="right", color=DIM, fontweight="normal", fontsize=8.5)
-        _value_scale(rows[0], [each.weights for each in series])
+        scale = _value_scale(rows[0], [each.weights for each in series])
         rows[-1].set_xlim(-0.8, k - 0.2)
         for row in rows[:-1]:
             row.tick_params(axis="x", length=0)
         _name_shapes(rows[-1], names, [each.weights for each in series])
-        figure.supylabel("weight", fontsize=8.5, color=DIM)
+        figure.supylabel(f"weight{scale}", fontsize=8.5, color=DIM)
+        _note(figure, note)
     return figure
 
 
-def error_charts(names: Sequence[str], reference: Floats, series: Sequence[Series]) -> "Figure":
+def error_charts(
+    names: Sequence[str], reference: Floats, series: Sequence[Series], note: str = ""
+) -> "Figure":
     """Draw |w − w̄| of every shape, as marks and as lines (Figure 6), with E_RMS (Eq. 9) in the legend."""
     from matplotlib.figure import Figure
 
@@ -268,10 +273,10 @@ def error_charts(names: Sequence[str], reference: Floats, series: Sequence[Serie
             )
             # Wide lines below narrow ones: solvers that agree are still seen apart.
             lines.plot(at, error, color=each.ink.colour, linewidth=1.1 + 0.4 * (len(series) - 1 - later))
+        scale = _value_scale(marks, errors)
         for axes in (marks, lines):
             axes.grid(axis="y")
-            axes.set_ylabel("$|w - \\bar{w}|$")
-        _value_scale(marks, errors)
+        figure.supylabel(f"$|w - \\bar{{w}}|${scale}", fontsize=8.5, color=DIM)
         top = marks.get_ylim()[1]
         marks.set_ylim(-0.03 * min(top, STRETCH), top)
         figure.legend(
@@ -279,6 +284,39 @@ def error_charts(names: Sequence[str], reference: Floats, series: Sequence[Serie
         )
         lines.set_xlim(-0.8, k - 0.2)
         _name_shapes(lines, names, errors)
+        _note(figure, note)
+    return figure
+
+
+def gamma_chart(smallest: Sequence[float], note: str = "") -> "Figure":
+    """Draw the smallest singular value of the pin rows, and γ of the hybrid, by number of pins (from 1)."""
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
+
+    values = np.maximum(np.array(smallest), LEAST_SINGULAR)
+    counts = np.arange(1, len(values) + 1)
+    with chart_style():
+        figure = Figure((6.5, 2.9), layout="constrained")
+        axes = figure.subplots()
+        axes.axhline(1, color=FAINT, linewidth=0.7)
+        axes.plot(
+            counts, values, "x--", color=DIM, linewidth=0.9, markersize=5, label="smallest singular value"
+        )
+        ink = INKS["hybrid"]
+        axes.plot(counts, np.minimum(values, 1), ink.marker + "-", color=ink.colour, markersize=5, label="γ")
+        axes.set_yscale("log")
+        axes.grid(axis="y")
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.set_xlabel("pins")
+        axes.set_title(
+            f"values below {LEAST_SINGULAR:g} are drawn there",
+            loc="right",
+            color=DIM,
+            fontweight="normal",
+            fontsize=7.5,
+        )
+        axes.legend(loc="upper right")
+        _note(figure, note)
     return figure
 
 
@@ -301,10 +339,11 @@ def _width(k: int) -> float:
     return float(np.clip(0.145 * k, 6.5, 13.0))
 
 
-def _value_scale(axes: "Axes", values: Sequence[Floats]) -> None:
+def _value_scale(axes: "Axes", values: Sequence[Floats]) -> str:
+    """Choose the scale that suits the values; return what has to be said about it."""
     largest = max((float(np.abs(each).max(initial=0.0)) for each in values), default=0.0)
     if largest <= STRETCH:
-        return
+        return ""
     from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
     axes.set_yscale("symlog", linthresh=1.0, linscale=1.5)
@@ -315,6 +354,13 @@ def _value_scale(axes: "Axes", values: Sequence[Floats]) -> None:
     axes.yaxis.set_major_locator(FixedLocator(ticks))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}".replace("-", "−")))
+    return " (logarithmic beyond 1)"
+
+
+def _note(figure: "Figure", note: str) -> None:
+    """Say at the bottom of a chart what made it."""
+    if note:
+        figure.supxlabel(note, x=0.008, ha="left", fontsize=6.5, color="#80868b")
 
 
 def _ticks(largest: float) -> list[float]:

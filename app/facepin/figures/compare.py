@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 from facepin.core.camera import View
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
-from facepin.core.rig import Rig
 from facepin.figures import charts
 from facepin.figures.comparison import Answer, Comparison, as_json, compare, weights_csv
-from facepin.figures.pictures import Painter, Pane, sheet
+from facepin.figures.pictures import Painter, Pane, write_sheet
 from facepin.files.atomic import atomic_write
 from facepin.files.pins_file import write_pins
 from facepin.files.pose_file import write_pose
@@ -151,15 +150,16 @@ def write_numbers(folder: Path, comparison: Comparison) -> list[Path]:
     ]
 
 
-def write_charts(folder: Path, comparison: Comparison) -> list[Path]:
+def write_charts(folder: Path, comparison: Comparison, made_by: str = "") -> list[Path]:
     """Write sliders, weights and, with a reference, errors, each as .png and .svg; return their paths."""
     rig, series = comparison.rig, charts.series_of(comparison)
+    note = f"{origin_line(comparison)}{made_by}\n{settings_line(comparison)}"
     figures = {
-        "sliders": charts.slider_panels(rig.shape_names, rig.limits, series),
-        "weights": charts.weight_bars(rig.shape_names, rig.limits, series),
+        "sliders": charts.slider_panels(rig.shape_names, rig.limits, series, note),
+        "weights": charts.weight_bars(rig.shape_names, rig.limits, series, note),
     }
     if comparison.reference is not None:
-        figures["errors"] = charts.error_charts(rig.shape_names, comparison.reference, series[1:])
+        figures["errors"] = charts.error_charts(rig.shape_names, comparison.reference, series[1:], note)
     return [path for name, figure in figures.items() for path in charts.write_chart(folder, name, figure)]
 
 
@@ -167,15 +167,12 @@ def write_picture(
     folder: Path, comparison: Comparison, ctx: "moderngl.Context", size: tuple[int, int], view: View
 ) -> list[Path]:
     """Write the faces side by side as comparison.png; return its path."""
-    from facepin.gpu.picture import png_bytes
-
     painter = Painter(ctx, comparison.rig, size, view)
     try:
         panes = comparison_panes(comparison, painter)
     finally:
         painter.release()
-    atomic_write(folder / "comparison.png", png_bytes(sheet(panes, footer=origin_line(comparison))))
-    return [folder / "comparison.png"]
+    return [write_sheet(folder / "comparison.png", panes, origin_line(comparison))]
 
 
 def comparison_panes(comparison: Comparison, painter: Painter, *, timed: bool = True) -> list[Pane]:
@@ -183,7 +180,13 @@ def comparison_panes(comparison: Comparison, painter: Painter, *, timed: bool = 
     rig, pins = comparison.rig, comparison.start.pins
     if comparison.reference is None:
         image = painter.paint(rig.evaluate(comparison.start.weights), pins)
-        panes = [Pane(image, "Start", f"{len(pins)} pin{'s'[: len(pins) != 1]} and where they go")]
+        panes = [
+            Pane(
+                image,
+                "Start",
+                "1 pin and its goal" if len(pins) == 1 else f"{len(pins)} pins and their goals",
+            )
+        ]
     else:
         meant = painter.paint(rig.evaluate(comparison.reference))
         panes = [Pane(meant, "Reference", "the pose that is meant", colour=REFERENCE.colour)]
@@ -205,7 +208,7 @@ def measured_lines(comparison: Comparison, answer: Answer, *, timed: bool = True
 
     def share(length: float) -> str:
         value = comparison.percent(length)
-        return f"{value:.2f} %" if value < 10 else f"{value:,.0f} %"
+        return f"{value:.2f}\u00a0%" if value < 10 else f"{value:,.0f}\u00a0%"
 
     lines = []
     if answer.e_rms is not None:
@@ -222,9 +225,16 @@ def measured_lines(comparison: Comparison, answer: Answer, *, timed: bool = True
 
 def origin_line(comparison: Comparison) -> str:
     """Return which rig and pins made a picture."""
-    rig: Rig = comparison.rig
-    pins = len(comparison.start.pins)
+    rig, pins = comparison.rig, len(comparison.start.pins)
     return (
         f"{rig.name}: {rig.vertex_count:,} vertices, {rig.shape_count} shapes; {pins} pin{'s'[: pins != 1]}; "
         "lengths in % of face height"
+    )
+
+
+def settings_line(comparison: Comparison) -> str:
+    """Return the settings of all solvers in a line."""
+    return "; ".join(
+        f"{answer.title}: {answer.settings_line}" if answer.settings_line else answer.title
+        for answer in comparison.answers
     )

@@ -37,7 +37,7 @@ class Answer:
     """Median solve of a drag frame."""
     pin_error: float
     far_motion: float
-    """Largest move, since the start, of a vertex that should rest (see `Comparison.at_rest`)."""
+    """Largest move, since the start, of a vertex that should rest (see `compare`)."""
     out_of_range: int
     active: int
     e_rms: float | None
@@ -56,18 +56,19 @@ class Answer:
 
     @property
     def settings_line(self) -> str:
-        """The settings that had an effect, in short, e.g. "automatic, step exact, γ 0.083"."""
+        """The settings in short, e.g. "automatic, γ 0.083": the main one, and what is not as usual."""
         settings = self.choice.settings
-        parts = []
-        for field in fields(settings):
+        parts: list[str] = []
+        for at, field in enumerate(fields(settings)):
             value = getattr(settings, field.name)
             other = field.metadata["when"]
-            if value is False or (other is not None and getattr(settings, other[0]) != other[1]):
+            idle = other is not None and getattr(settings, other[0]) != other[1]
+            usual = at > 0 and other is None and value == field.default
+            if idle or usual or value is False:
                 continue
+            shown = value if isinstance(value, str) else f"{value:g}"
             name = GREEK.get(field.name, field.name)
-            parts.append(
-                name if value is True else f"{name} {value if isinstance(value, str) else f'{value:g}'}"
-            )
+            parts.append(name if value is True else f"{name} {shown}")
         if getattr(settings, "automatic", False) and "gamma" in self.notes:
             parts.append(f"γ {self.notes['gamma']:.3f}")
         if self.choice.keep_limits and not self.choice.kind.obeys_limits:

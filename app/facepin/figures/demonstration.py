@@ -7,13 +7,10 @@ from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.figures.compare import made_folder, progress_line, write_comparison
 from facepin.figures.comparison import Comparison, compare
-from facepin.figures.posing import dragged, handles, named_weights
+from facepin.figures.posing import DELIGHT, dragged, handles, named_weights
 from facepin.options import open_with_bar
 from facepin.session.solving import choose
 from facepin.solvers import SOLVERS
-
-DELIGHT = {"jawOpen": 0.5, "mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "browInnerUp": 0.9}
-"""The expression that is meant."""
 
 
 def demonstrate(folder: Path) -> Path:

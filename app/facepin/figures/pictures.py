@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from facepin.core.measures import moves
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
+from facepin.files.atomic import atomic_write
 from facepin.resources import resource
 
 if TYPE_CHECKING:
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
     from PIL.ImageFont import FreeTypeFont
 
 Image = NDArray[np.uint8]
+
+TITLE_INK, TEXT_INK, DIM_INK, FOOTER_INK = "#16181d", "#33363c", "#5f6368", "#80868b"
 
 SUPERSAMPLING = 2
 MARGIN = 0.14
@@ -77,15 +81,19 @@ class Painter:
 
 
 def face_camera(rig: Rig, size: tuple[int, int], view: View) -> Camera:
-    """Return a camera that sees the part of the neutral that shapes move, all of it if they move nothing."""
-    whole = frame_points(rig.neutral, size[0] / size[1], Camera(radius=0.0).looking(view))
-    stirred = np.zeros(rig.vertex_count, np.bool_)
+    """Return a camera that sees the part of the neutral that shapes move.
+
+    What a single shape moves (to another build, say) counts only where nothing is moved by two.
+    """
+    camera = frame_points(rig.neutral, size[0] / size[1], Camera(radius=0.0).looking(view))
+    counts = np.zeros(rig.vertex_count, np.int64)
     for j in range(rig.shape_count):
         delta = rig.deltas[:, [j]].toarray().reshape(-1, 3)
-        stirred |= moves(delta, np.zeros_like(delta)) > STIRRED * rig.height
-    if np.count_nonzero(stirred) < 3:
-        return whole
-    return frame_points(rig.neutral[stirred], size[0] / size[1], whole, MARGIN)
+        counts += moves(delta, np.zeros_like(delta)) > STIRRED * rig.height
+    for least in (2, 1):
+        if np.count_nonzero(counts >= least) > 2:
+            return frame_points(rig.neutral[counts >= least], size[0] / size[1], camera, MARGIN)
+    return camera
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,40 +125,56 @@ def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "") -> Image:
     from PIL import ImageDraw
 
     columns = min(columns or _columns(len(panes)), len(panes))
+    rows = [panes[at : at + columns] for at in range(0, len(panes), columns)]
     height, width = panes[0].image.shape[:2]
-    em = max(width / 24, 9.0)
-    gap = round(0.8 * em)
+    em = max(width / 24, columns * width / 110, 9.0)  # readable where many panes share the width of a page
+    gap, line, inch = round(0.8 * em), 1.22 * em, round(0.5 * em)
     bold, plain, small = _font("Bold", 1.1 * em), _font("Regular", 0.86 * em), _font("Regular", 0.72 * em)
-    line = 1.22 * em
-    top = round((3.4 if any(pane.subtitle for pane in panes) else 2.2) * em)
-    bottom = round(line * max(len(pane.lines) for pane in panes) + 0.5 * em)
-    rows = -(-len(panes) // columns)
-    paper = Pillow.new(
-        "RGB",
-        (
-            columns * width + (columns + 1) * gap,
-            rows * (top + height + bottom) + gap + (round(1.4 * em) if footer else 0),
-        ),
-        "white",
-    )
+    tops = [_head_height(row, em) for row in rows]
+    bottoms = [round(line * max(len(pane.lines) for pane in row) + 0.5 * em) for row in rows]
+    whole = sum(tops) + sum(bottoms) + len(rows) * height + gap + (round(1.4 * em) if footer else 0)
+    paper = Pillow.new("RGB", (columns * width + (columns + 1) * gap, whole), "white")
     draw = ImageDraw.Draw(paper)
-    for at, pane in enumerate(panes):
-        x = gap + (at % columns) * (width + gap)
-        y = (at // columns) * (top + height + bottom) + round(0.5 * em)
-        left: float = x
-        if pane.colour:
-            draw.rounded_rectangle((x, y + 0.2 * em, x + 0.8 * em, y + 1.0 * em), 0.18 * em, pane.colour)
-            left += 1.25 * em
-        draw.text((left, y), pane.title, "#16181d", bold)
-        draw.text((x, y + 1.5 * em), _shortened(pane.subtitle, plain, width), "#5f6368", plain)
-        below = y + top - round(0.5 * em)
-        paper.paste(Pillow.fromarray(pane.image[..., :3]), (x, below))
-        for number, text in enumerate(pane.lines):
-            draw.text((x, below + height + 0.35 * em + number * line), text, "#33363c", plain)
+    y = inch
+    for row, top, bottom in zip(rows, tops, bottoms, strict=True):
+        for place, pane in enumerate(row):
+            x = gap + place * (width + gap)
+            left: float = x
+            if pane.colour:
+                draw.rounded_rectangle((x, y + 0.2 * em, x + 0.8 * em, y + 1.0 * em), 0.18 * em, pane.colour)
+                left += 1.25 * em
+            draw.text((left, y), pane.title, TITLE_INK, bold)
+            draw.text((x, y + 1.5 * em), _shortened(pane.subtitle, plain, width), DIM_INK, plain)
+            paper.paste(Pillow.fromarray(pane.image[..., :3]), (x, y + top - inch))
+            for number, text in enumerate(pane.lines):
+                below = y + top - inch + height + 0.35 * em + number * line
+                draw.text((x, below), _shortened(text, plain, width), TEXT_INK, plain)
+        y += top + height + bottom
     if footer:
         words = _shortened(footer, small, paper.width - 2 * gap)
-        draw.text((gap, paper.height - gap - 0.7 * em), words, "#80868b", small)
+        draw.text((gap, paper.height - gap - 0.7 * em), words, FOOTER_INK, small)
     return np.asarray(paper)
+
+
+def _head_height(row: Sequence[Pane], em: float) -> int:
+    """Return the room for titles over a row of panes."""
+    if any(pane.subtitle for pane in row):
+        return round(3.4 * em)
+    return round((2.2 if any(pane.title for pane in row) else 0.5) * em)
+
+
+def write_sheet(path: Path, panes: Sequence[Pane], footer: str = "", columns: int = 0) -> Path:
+    """Write a sheet as .png and return its path.
+
+    Raises
+    ------
+    FacepinError
+        If it cannot be written.
+    """
+    from facepin.gpu.picture import png_bytes
+
+    atomic_write(path, png_bytes(sheet(panes, columns, footer)))
+    return path
 
 
 def _columns(count: int) -> int:

@@ -9,19 +9,25 @@ from facepin.core.arrays import Floats, Points
 from facepin.core.picking import first_hit
 from facepin.core.pose import Freedom, Pin
 from facepin.core.rig import Rig
-from facepin.figures.animator import SPACING
+from facepin.figures.animator import SPACING, most_moved
 from facepin.files.shape_spelling import match_shapes
 
+DELIGHT = {"jawOpen": 0.5, "mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "browInnerUp": 0.9}
+"""An expression that faces with ARKit's shapes can make."""
 HIDDEN = 0.003
 """A vertex that lies deeper than this share of the face height behind what is seen is hidden."""
 
 
 def named_weights(rig: Rig, amounts: Mapping[str, float]) -> Floats:
-    """Return weights (k,) with shapes set by name, in any spelling; shapes the rig lacks are left out."""
+    """Return weights (k,) with shapes set by name, in any spelling.
+
+    Where a rig has a left and a right shape instead of one, both are set; shapes it lacks are left out.
+    """
     weights = np.zeros(rig.shape_count)
-    for place, amount in zip(match_shapes(list(amounts), rig.shape_names), amounts.values(), strict=True):
-        if place is not None:
-            weights[place] = amount
+    for name, amount in amounts.items():
+        (place,) = match_shapes([name], rig.shape_names)
+        halves = match_shapes([f"{name}Left", f"{name}Right"], rig.shape_names) if place is None else [place]
+        weights[[half for half in halves if half is not None]] = amount
     return weights
 
 
@@ -38,7 +44,7 @@ def handles(rig: Rig, weights: Floats) -> tuple[int, ...]:
 def most_moved_in_sight(rig: Rig, wanted: Points, count: int) -> tuple[int, ...]:
     """Choose up to `count` vertices that a pose moves most, seen from the front and not too close together.
 
-    As `animator.most_moved`, but only where a mouse could press.
+    As `animator.most_moved`, but only where a mouse could press, if there is such a place.
     """
     moved = measures.moves(wanted, rig.neutral)
     moved[measures.resting(wanted, rig.neutral, rig.height)] = 0.0
@@ -50,7 +56,7 @@ def most_moved_in_sight(rig: Rig, wanted: Points, count: int) -> tuple[int, ...]
             continue
         chosen.append(vertex)
         moved[measures.moves(rig.neutral, rig.neutral[vertex]) <= SPACING * rig.height] = 0.0
-    return tuple(chosen)
+    return tuple(chosen) or most_moved(rig, wanted, count)
 
 
 def in_sight(rig: Rig, vertex: int) -> bool:

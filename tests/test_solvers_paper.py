@@ -1,5 +1,6 @@
 """The four solvers of the paper, against its formulas written out and against its own statements."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -186,3 +187,28 @@ def test_formulas_hold_on_a_real_face(shared: Path, shapes: int, pins: int) -> N
         # γ J⁺ is the smallest singular value times its own inverse: all the rounding of both is in it.
         tolerance = 1e-6 if key == "hybrid" else 1e-9
         assert np.linalg.norm(found - weights) <= tolerance * np.linalg.norm(weights), key
+
+
+def test_a_radius_rescales_the_shapes_by_their_locality() -> None:
+    """w0 + S^½ y with y by transposition on J S^½, written out; without a radius nothing changes."""
+    problem = random_problem(9)
+    shares = np.random.default_rng(9).uniform(0, 1, len(problem.start))
+    shares[2] = 0.0
+    system = replace(problem.system, locality=shares)
+    near = problem._replace(system=system)
+    missing = problem.displacement - system.rows @ problem.start
+    scaled = system.rows * np.sqrt(shares)
+    y = scaled.T @ missing
+    y *= (y @ y) / np.sum((scaled @ y) ** 2)
+    weights = solve("transpose", near, radius=10.0)
+    np.testing.assert_allclose(weights, problem.start + np.sqrt(shares) * y, rtol=1e-12)
+    assert weights[2] == problem.start[2]
+    np.testing.assert_array_equal(solve("transpose", near), solve("transpose", problem))
+
+
+def test_many_localised_steps_reach_what_the_pins_can_reach() -> None:
+    problem = random_problem(10)
+    shares = np.random.default_rng(9).uniform(0.3, 1, len(problem.start))
+    near = problem._replace(system=replace(problem.system, locality=shares))
+    weights = solve("transpose", near, radius=10.0, iterations=200)
+    np.testing.assert_allclose(problem.system.rows @ weights, problem.displacement, atol=0.02)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from facepin.figures.animator import FRAMES, Outcome, drawable
-from facepin.figures.charts import chart_style, number, write_chart
+from facepin.figures.charts import DIM, chart_style, number, write_chart
 from facepin.figures.compare import made_folder
 from facepin.figures.study import Row, Study
 from facepin.files.atomic import atomic_write
@@ -71,7 +71,7 @@ def as_table(study: Study) -> "Table":
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
-    table = Table(title=origin(study), box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    table = Table(title=origin(study), title_justify="left", box=SIMPLE_HEAD, show_edge=False, padding=0)
     table.add_column("solver", no_wrap=True, min_width=14)
     table.add_column("freedom", no_wrap=True)
     for heading in HEADINGS.values():
@@ -107,7 +107,7 @@ def write_study(folder: Path, study: Study) -> list[Path]:
 
 
 def summary_chart(study: Study) -> "Figure":
-    """Draw what matters most as bars, a panel for each measure, short ones being good."""
+    """Draw what matters most, a panel for each measure; further left is better."""
     from matplotlib.figure import Figure
 
     rows = study.rows
@@ -115,23 +115,32 @@ def summary_chart(study: Study) -> "Figure":
         figure = Figure((11.0, 0.24 * len(rows) + 1.3), layout="constrained")
         panels = figure.subplots(1, len(CHARTED), sharey=True, squeeze=False)[0]
         for panel, name in zip(panels, CHARTED, strict=True):
-            _bars(panel, rows, [float(getattr(row.outcome, name)) for row in rows])
-            unit = ", %" if name.endswith("percent") else ""
-            panel.set_title(HEADINGS[name].replace("\n", " ") + unit)
-        panels[0].set_yticks(
-            range(len(rows)), [f"{row.choice.kind.title}, {row.freedom}" for row in rows], fontsize=8
-        )
+            words = [HEADINGS[name].replace("\n", " ")]
+            words += ["% of face height"] if name.endswith("percent") else []
+            words += _dots(panel, rows, [float(getattr(row.outcome, name)) for row in rows])
+            panel.set_title(", ".join(words))
+        labels = [f"{row.choice.kind.title}, {row.freedom}" for row in rows]
+        panels[0].set_yticks(range(len(rows)), labels, fontsize=8)
         panels[0].invert_yaxis()
-        figure.supxlabel(origin(study), x=0.008, ha="left", fontsize=6.5, color="#80868b")
+        figure.supxlabel(origin(study), x=0.008, ha="left", fontsize=6.5, color=DIM)
     return figure
 
 
-def _bars(panel: "Axes", rows: tuple[Row, ...], values: list[float]) -> None:
-    colours = [INKS[row.choice.kind.key].colour for row in rows]
-    bars = panel.barh(range(len(rows)), values, height=0.62, color=colours)
-    panel.bar_label(bars, [number(value) for value in values], padding=3, fontsize=7.5)
+def _dots(panel: "Axes", rows: tuple[Row, ...], values: list[float]) -> list[str]:
+    """Draw a mark for each value, and return what has to be said about the scale."""
     positive = [value for value in values if value > 0]
-    if positive and max(positive) > 30 * min(positive):
+    logarithmic = len(positive) == len(values) and max(values) > 30 * min(values)
+    if logarithmic:
         panel.set_xscale("log")
-    panel.margins(x=0.25)
+    for at, (row, value) in enumerate(zip(rows, values, strict=True)):
+        ink = INKS[row.choice.kind.key]
+        panel.plot(value, at, ink.marker, color=ink.colour, markersize=6, clip_on=False)
+        panel.annotate(
+            number(value), (value, at), (7, 0), textcoords="offset points", va="center", fontsize=7.5
+        )
+    if not logarithmic:
+        panel.set_xlim(left=0)
+    panel.margins(x=0.22)
+    panel.grid(axis="y")
     panel.tick_params(axis="y", length=0)
+    return ["logarithmic"] if logarithmic else []

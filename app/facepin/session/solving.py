@@ -9,6 +9,7 @@ import numpy as np
 
 from facepin.core.arrays import Floats, frozen
 from facepin.core.errors import FacepinError
+from facepin.core.geodesic import shape_locality
 from facepin.core.pose import Pin, Pose, as_vector, pin_displacement, pin_rows
 from facepin.core.rig import Rig
 from facepin.solvers import SOLVERS
@@ -101,11 +102,21 @@ class PinSolver:
         if self._solve is None or places != self._prepared_for:
             rig = self._rig
             self._rows = pin_rows(rig, pins)
-            self._solve = self.choice.kind.prepare(
-                PinSystem(self._rows, rig.limits, rig.scale, rig.largest_moves), self.choice.settings
+            system = PinSystem(
+                self._rows,
+                rig.limits,
+                rig.scale,
+                rig.largest_moves,
+                self._locality([pin.vertex for pin in pins]),
             )
+            self._solve = self.choice.kind.prepare(system, self.choice.settings)
             self._prepared_for = places
         return self._solve
+
+    def _locality(self, vertices: list[int]) -> Floats | None:
+        """Return the share of each shape near these vertices, for a solver told to prefer what is near."""
+        radius = getattr(self.choice.settings, "radius", 0.0)
+        return shape_locality(self._rig, vertices, radius / 100 * self._rig.height) if radius > 0 else None
 
     def _pin_error(self, pins: tuple[Pin, ...], displacement: Floats, weights: Floats) -> float:
         if not pins:

@@ -22,6 +22,8 @@ class PinSystem:
     """Mean over shapes of the squared largest vertex move of the rig: the unit of relative strengths."""
     sizes: Floats | None = None
     """(k,) largest vertex move of each shape, anywhere on the rig; None: all alike, the root of `scale`."""
+    locality: Floats | None = None
+    """(k,) share of each shape that happens near the pins, 0..1, for solvers with a setting `radius` > 0."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,13 @@ class TransposeSettings:
         high=200,
         log=True,
     )
+    radius: float = setting(
+        0.0,
+        "Prefers shapes that move the face near the pins: how far that reaches over the skin, in % of the "
+        "face height; 0 treats all alike.",
+        low=0.0,
+        high=100.0,
+    )
 
 
 def step_length(rows: Floats, step: str) -> StepLength:
@@ -60,21 +67,29 @@ def step_length(rows: Floats, step: str) -> StepLength:
 def prepare(system: PinSystem, settings: TransposeSettings) -> Solve:
     """w = w0 + τ Jᵀ r, repeated `iterations` times with the r that is left (Eq. 6 for w0 = 0, τ = 1).
 
+    With a `radius`, each weight is measured in units of √sⱼ, sⱼ being how much of shape j happens within it
+    (`system.locality`): w = w0 + S^½ y, where y is found as above with J S^½ for J.  Shapes that only touch
+    the pins in passing are then hardly used.  Confining edits to geodesic circles is an idea of Cetinaslan
+    and Orvalho (2018); this weighting is ours.
+
     Notes: `step`, the τ of the last repetition.
     """
-    rows = system.rows
+    scales = np.ones(system.rows.shape[1])
+    if settings.radius > 0 and system.locality is not None:
+        scales = np.sqrt(system.locality)
+    rows = system.rows * scales
     length = step_length(rows, settings.step)
 
     def solve(displacement: Floats, start: Floats) -> Solution:
-        weights, step = start, 0.0
+        missing, change, step = displacement - system.rows @ start, np.zeros_like(start), 0.0
         for _ in range(settings.iterations):
-            missing = displacement - rows @ weights
-            direction = missing @ rows
-            step = length(direction, missing)
-            weights = weights + step * direction
+            left = missing - rows @ change
+            direction = left @ rows
+            step = length(direction, left)
+            change = change + step * direction
             if step == 0.0:
                 break
-        return Solution(weights, {"step": step})
+        return Solution(start + scales * change, {"step": step})
 
     return solve
 

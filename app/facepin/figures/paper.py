@@ -5,6 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from facepin.core.errors import FacepinError
+from facepin.core.measures import REST
 from facepin.core.rig import Rig
 from facepin.figures import bench, remakes
 from facepin.figures.compare import PANE, context_or_word, made_folder, progress_line
@@ -46,6 +48,9 @@ def run(options: Namespace) -> Path:
     """Do `facepin figures`; return the path of the page."""
     folder = made_folder(options.out)
     rigs = [open_with_bar(None), *(open_with_bar(path) for path in options.rigs)]
+    for rig in rigs:
+        if not rig.shape_count or rig.largest_moves.max() < REST * rig.height:
+            raise FacepinError(f"{rig.name}: no shape moves the face, so there are no figures to make")
     with progress_line() as tell, context_or_word() as ctx:
         sections = []
         for number, rig in enumerate(rigs):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, View, frame_points
-from facepin.core.measures import moves
+from facepin.core.measures import REST, moves
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
@@ -83,16 +83,19 @@ class Painter:
 def face_camera(rig: Rig, size: tuple[int, int], view: View) -> Camera:
     """Return a camera that sees the part of the neutral that shapes move.
 
-    What a single shape moves (to another build, say) counts only where nothing is moved by two.
+    Shapes that move more than half of all vertices (to another build, say) count only if there are no others.
     """
     camera = frame_points(rig.neutral, size[0] / size[1], Camera(radius=0.0).looking(view))
-    counts = np.zeros(rig.vertex_count, np.int64)
+    local, anywhere = np.zeros((2, rig.vertex_count), np.bool_)
     for j in range(rig.shape_count):
         delta = rig.deltas[:, [j]].toarray().reshape(-1, 3)
-        counts += moves(delta, np.zeros_like(delta)) > STIRRED * rig.height
-    for least in (2, 1):
-        if np.count_nonzero(counts >= least) > 2:
-            return frame_points(rig.neutral[counts >= least], size[0] / size[1], camera, MARGIN)
+        lengths = moves(delta, np.zeros_like(delta))
+        anywhere |= lengths > STIRRED * rig.height
+        if np.count_nonzero(lengths > REST * rig.height) <= rig.vertex_count / 2:
+            local |= lengths > STIRRED * rig.height
+    for stirred in (local, anywhere):
+        if np.count_nonzero(stirred) > 2:
+            return frame_points(rig.neutral[stirred], size[0] / size[1], camera, MARGIN)
     return camera
 
 

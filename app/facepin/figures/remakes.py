@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from facepin.core.arrays import Floats, frozen
-from facepin.core.errors import FacepinError
 from facepin.core.measures import moves
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
@@ -268,20 +267,14 @@ def _expression(studio: Studio, amounts: Mapping[str, float]) -> Floats:
 
 
 def _random_weights(studio: Studio, shapes: int = Protocol.shapes) -> Floats:
-    """Draw a pose of `shapes` shapes that move the face, or of as many as there are.
-
-    Raises
-    ------
-    FacepinError
-        When no shape does.
-    """
-    for without in (QUIET, ()):
-        protocol = Protocol(pins=1, shapes=0, seed=studio.seed, without=without)
-        there_are = len(drawable(studio.rig, protocol))
-        if there_are:
-            protocol = replace(protocol, shapes=min(shapes, there_are))
-            return frozen(make_task(studio.rig, protocol, 0).reference, np.float64)
-    raise FacepinError(f"{studio.rig.name}: no shape moves the face, so there are no figures to make")
+    """Draw a pose of `shapes` shapes that move the face, or of as many as there are."""
+    protocol = Protocol(pins=1, shapes=0, seed=studio.seed, without=QUIET)
+    if not drawable(studio.rig, protocol):
+        protocol = replace(protocol, without=())
+    there_are = len(drawable(studio.rig, protocol))
+    return frozen(
+        make_task(studio.rig, replace(protocol, shapes=min(shapes, there_are)), 0).reference, np.float64
+    )
 
 
 def _remade(

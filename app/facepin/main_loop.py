@@ -19,7 +19,7 @@ from facepin.options import BUILTIN
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Command
-from facepin.panels.theme import apply_theme
+from facepin.panels.theme import PANEL, apply_theme
 from facepin.panels.view import View
 from facepin.resources import resource
 from facepin.routing import Router
@@ -148,10 +148,10 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
                     fine=canvas is smooth,
                 )
                 drawn = wanted
-            canvas.resolve(window.ctx.screen)
+            canvas.resolve(window.ctx.screen, viewport)
         else:
             window.ctx.screen.use()
-            window.ctx.screen.clear(0.09, 0.095, 0.105)
+            window.ctx.screen.clear(*PANEL)
         window.end_frame()
         seconds = perf_counter() - began
 

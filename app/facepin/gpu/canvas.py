@@ -6,6 +6,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from facepin.core.camera import Viewport
+
 
 class Canvas:
     """Colour and depth in memory.
@@ -20,6 +22,7 @@ class Canvas:
         self.samples = min(samples, int(ctx.max_samples)) if samples > 1 else 0
         self._buffers: _Buffers | None = None
         self._resolved: moderngl.Framebuffer | None = None
+        self._second: tuple[moderngl.Framebuffer, moderngl.Framebuffer] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -40,6 +43,24 @@ class Canvas:
     def depth(self) -> moderngl.Texture:
         """Depth of what is in `framebuffer`; multisampled if there are `samples`."""
         return self._made.depth
+
+    @property
+    def second_depth(self) -> moderngl.Framebuffer:
+        """Depth alone, another one than that of the picture; made when first asked for."""
+        return self._second_made[0]
+
+    @property
+    def with_second_depth(self) -> moderngl.Framebuffer:
+        """The same picture with the second depth: to draw what does not hide behind the face."""
+        return self._second_made[1]
+
+    @property
+    def _second_made(self) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
+        if self._second is None:
+            depth = self.ctx.depth_renderbuffer(self.size, samples=self.samples)
+            colours = self._made.framebuffer.color_attachments
+            self._second = (self.ctx.framebuffer(depth_attachment=depth), self.ctx.framebuffer(colours, depth))
+        return self._second
 
     @property
     def _made(self) -> "_Buffers":
@@ -69,14 +90,21 @@ class Canvas:
         """Copy picture and depth to a canvas of the same size and samples."""
         self._copy(self.framebuffer, other.framebuffer)
 
-    def resolve(self, target: moderngl.Framebuffer) -> None:
-        """Copy the picture to a framebuffer of the same size, each pixel the mean of its samples."""
+    def resolve(self, target: moderngl.Framebuffer, part: Viewport | None = None) -> None:
+        """Copy the picture, or a part of it, to a framebuffer of the same size: pixels are means of samples."""
         # Not from the one with depth: depth would be copied too, or refused where its format differs.
-        self._copy(self.overlay, target)
+        self._copy(self.overlay, target, part)
 
-    def _copy(self, source: moderngl.Framebuffer, target: moderngl.Framebuffer) -> None:
+    def _copy(
+        self, source: moderngl.Framebuffer, target: moderngl.Framebuffer, part: Viewport | None = None
+    ) -> None:
         self._use_all_of(source)
         self._use_all_of(target)
+        if part is not None:
+            left, right = round(part.x), round(part.x + part.width)
+            top, bottom = round(part.y), round(part.y + part.height)
+            target.scissor = (left, target.height - bottom, right - left, bottom - top)
+            target.use()
         self.ctx.copy_framebuffer(target, source)
 
     def read(self) -> NDArray[np.uint8]:
@@ -98,13 +126,17 @@ class Canvas:
 
     def release(self) -> None:
         """Give the graphics memory back."""
+        if self._second is not None:
+            alone, together = self._second
+            together.release()
+            release_framebuffer(alone)
         if self._buffers is not None:
             leave_framebuffers(self.ctx)
             self._buffers.overlay.release()
             release_framebuffer(self._buffers.framebuffer)
         if self._resolved is not None:
             release_framebuffer(self._resolved)
-        self._buffers = self._resolved = None
+        self._buffers = self._resolved = self._second = None
 
 
 @dataclass(frozen=True)

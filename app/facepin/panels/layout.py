@@ -28,9 +28,12 @@ def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
     space = imgui.get_id("panels")
     if reset or imgui.internal.dock_builder_get_node(space) is None:
         _build(space, scale)
+    # Its background would be painted under the panels' own, which cover it: without a GPU that is felt.
+    imgui.push_style_color(imgui.Col_.window_bg, imgui.ImVec4(0, 0, 0, 0))
     imgui.dock_space_over_viewport(
         space, imgui.get_main_viewport(), imgui.DockNodeFlags_.passthru_central_node
     )
+    imgui.pop_style_color()
     node = imgui.internal.dock_builder_get_central_node(space)
     return Viewport(
         node.pos.x * pixel_ratio,

@@ -13,12 +13,15 @@ from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
 from facepin.gpu.canvas import Canvas
+from facepin.gpu.framing import frame
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
 from facepin.gpu.materials import material
+from facepin.gpu.pane import Overlays, draw_pane
 from facepin.gpu.scene import PaneMesh, Scene
-from facepin.panels.view import PaneView
+from facepin.panels.view import Ghost, PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
 from facepin.session.drag import DragTool
+from facepin.session.heat import HeatGauge
 from facepin.session.session import Session
 
 
@@ -29,8 +32,18 @@ class _Shown:
     deformer: Deformer
     normals: NormalField
     mesh: PaneMesh
+    gauge: HeatGauge
     weights: Floats | None = None
     positions: Points | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Shell:
+    """A pose that shines through."""
+
+    weights: Floats | None
+    """None for the neutral."""
+    mesh: PaneMesh
 
 
 class Stage:
@@ -50,7 +63,9 @@ class Stage:
         self.triangles: Indices = frozen(np.concatenate(shown) if shown else session.rig.triangles, np.int32)
         """(t, 3) what is drawn, hence what can be pressed."""
         self._appraiser = Appraiser(session.rig)
-        self._shown = [_Shown(Deformer(session.rig), NormalField(session.rig), PaneMesh(self._scene))]
+        self._shells: dict[Ghost, _Shell] = {}
+        rig = session.rig
+        self._shown = [_Shown(Deformer(rig), NormalField(rig), PaneMesh(self._scene), HeatGauge(rig))]
         self.update()
 
     @property
@@ -68,7 +83,8 @@ class Stage:
         panes = self.session.panes
         for _ in range(len(self._shown), len(panes)):
             first = self._shown[0]
-            self._shown.append(_Shown(first.deformer.twin(), first.normals.twin(), PaneMesh(self._scene)))
+            mesh, gauge = PaneMesh(self._scene), HeatGauge(self.session.rig)
+            self._shown.append(_Shown(first.deformer.twin(), first.normals.twin(), mesh, gauge))
         changed = False
         for shown, pane in zip(self._shown, panes, strict=False):
             weights = pane.pose.weights
@@ -95,6 +111,26 @@ class Stage:
     def mesh(self, pane: int) -> PaneMesh:
         """The mesh of a pane, for a picture of it."""
         return self._shown[pane].mesh
+
+    def overlays(self, pane: int, view: PaneView) -> Overlays:
+        """Return what `view` shows over the face of a pane; measures and uploads only what it asks for."""
+        work, shown = self.session.work, self._shown[pane]
+        heat = shown.gauge.heat(work.panes[pane], self.positions(pane)) if view.heat else None
+        ghost = None
+        if view.ghost == "neutral" or (view.ghost == "reference" and work.reference is not None):
+            ghost = self._ghost(view.ghost, None if view.ghost == "neutral" else work.reference)
+        return Overlays(heat, view.wireframe, ghost)
+
+    def _ghost(self, kind: Ghost, weights: Floats | None) -> PaneMesh:
+        """Return the mesh of a ghost, with the pose of `weights`; None is the neutral."""
+        shell = self._shells.get(kind)
+        if shell is None or shell.weights is not weights:
+            mesh = shell.mesh if shell else PaneMesh(self._scene)
+            rig = self.session.rig
+            positions = rig.neutral if weights is None else rig.evaluate(weights)
+            mesh.upload(positions, self._shown[0].normals.twin().normals(positions))
+            shell = self._shells[kind] = _Shell(weights, mesh)
+        return shell.mesh
 
     def draw(
         self,
@@ -125,7 +161,9 @@ class Stage:
         """
         self._scene.background.draw(canvas, sights)
         for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
-            self._shown[at].mesh.draw(canvas, viewport, camera, fine=fine)
+            framing = frame(camera, viewport, canvas.size[1])
+            over = self.overlays(at, overlays[at])
+            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, scale=scale)
             markers = _markers(pane.pose, self.positions(at), tool)
             self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 
@@ -133,6 +171,8 @@ class Stage:
         """Give the graphics memory back."""
         for shown in self._shown:
             shown.mesh.release()
+        for shell in self._shells.values():
+            shell.mesh.release()
         self._markers.release()
         self._scene.release()
 

@@ -38,7 +38,7 @@ def make_cells(rig: Rig) -> Cells:
     A vertex that a texture seam has split gets what all its copies get, unless they belong to a sharp edge.
     """
     quads, triangles = _cut(rig.corners, rig.face_sizes)
-    pairs, triangles = _paired(triangles, rig.neutral)
+    pairs, triangles = paired(triangles, rig.neutral)
     quads = np.hstack([quads, pairs])
     diagonals = np.hstack([quads[[0, 2, 1, 3]], triangles[[0, 1, 0, 2]]]).reshape(2, 2, -1)
     areas = area_vectors(rig.neutral.T, diagonals)
@@ -84,7 +84,7 @@ def _cut(corners: Indices, sizes: Indices) -> tuple[Numbers, Numbers]:
     return quads.astype(np.intp), triangles.astype(np.intp)
 
 
-def _paired(triangles: Numbers, neutral: Points) -> tuple[Numbers, Numbers]:
+def paired(triangles: Numbers, neutral: Points) -> tuple[Numbers, Numbers]:
     """Take triangles (3, t) that follow each other and lie flat side by side for the quads they once were.
 
     Most files hold triangles only, each quad cut in two: half as many cells are half the work on every frame.

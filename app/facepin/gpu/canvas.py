@@ -59,7 +59,10 @@ class Canvas:
         if self._second is None:
             depth = self.ctx.depth_renderbuffer(self.size, samples=self.samples)
             colours = self._made.framebuffer.color_attachments
-            self._second = (self.ctx.framebuffer(depth_attachment=depth), self.ctx.framebuffer(colours, depth))
+            self._second = (
+                self.ctx.framebuffer(depth_attachment=depth),
+                self.ctx.framebuffer(colours, depth),
+            )
         return self._second
 
     @property

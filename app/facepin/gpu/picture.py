@@ -14,6 +14,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame, tile
+from facepin.gpu.pane import BARE, Overlays, draw_pane
 from facepin.gpu.scene import PaneMesh, Scene
 
 Image = NDArray[np.uint8]
@@ -54,6 +55,9 @@ def render_picture(
     transparent: bool = False,
     samples: int = 4,
     supersampling: int = 1,
+    heat: Points | None = None,
+    wireframe: bool = False,
+    ghost: tuple[Points, Points] | None = None,
 ) -> Image:
     """Draw one picture of a posed face.
 
@@ -69,6 +73,12 @@ def render_picture(
         Multisampling, as far as the machine goes.
     supersampling : int
         Draw this many times larger in both directions and average.
+    heat : (n,) float32
+        How far each vertex moved, in shares of the top of the heat scale, to be shown as colours.
+    wireframe : bool
+        Draw the edges of the faces.
+    ghost : ((n, 3), (n, 3)) float32
+        Positions and normals of another pose that shines through.
 
     Returns
     -------
@@ -86,17 +96,26 @@ def render_picture(
             f"a picture of {width}x{height} times {supersampling} cannot be drawn (at least 1x1)"
         )
     scene = Scene(ctx, rig)
-    mesh = PaneMesh(scene)
+    mesh, shell = PaneMesh(scene), PaneMesh(scene) if ghost is not None else None
     try:
         mesh.upload(positions, normals)
+        if shell is not None and ghost is not None:
+            shell.upload(*ghost)
         while not scene.refined:
             scene.refine()
         return draw_picture(
-            mesh, camera, size, transparent=transparent, samples=samples, supersampling=supersampling
+            mesh,
+            camera,
+            size,
+            transparent=transparent,
+            samples=samples,
+            supersampling=supersampling,
+            overlays=Overlays(heat, wireframe, shell),
         )
     finally:
-        mesh.release()
-        scene.release()
+        for item in (mesh, shell, scene):
+            if item is not None:
+                item.release()
 
 
 def draw_picture(
@@ -107,9 +126,21 @@ def draw_picture(
     transparent: bool = False,
     samples: int = 4,
     supersampling: int = 1,
+    overlays: Overlays = BARE,
+    scale: float = 1.0,
     overlay: Overlay | None = None,
 ) -> Image:
-    """Draw like `render_picture`, for a mesh that is on the graphics card already, and `overlay` over it."""
+    """Draw like `render_picture`, for a mesh that is on the graphics card already.
+
+    Parameters
+    ----------
+    overlays : Overlays
+        Heat map, wireframe, ghost.
+    scale : float
+        Pixels of the picture per point: 2 to look like a HiDPI screen.
+    overlay : Overlay
+        Draws more over all of that, such as pins.
+    """
     factor = supersampling
     width, height = size
     whole = frame(camera, Viewport(0, 0, width * factor, height * factor), height * factor)
@@ -126,7 +157,7 @@ def draw_picture(
                     canvas.clear()
                 else:
                     mesh.scene.background.draw_framed(canvas, [framing])
-                mesh.draw_framed(canvas, framing, fine=True)
+                draw_pane(canvas, framing, mesh, overlays, fine=True, scale=scale * factor)
                 if overlay is not None:
                     overlay(canvas, framing)
                 picture[height - y - h : height - y, x : x + w] = _averaged(canvas.read(), factor)

@@ -10,6 +10,7 @@ from facepin.core.topology import draw_order
 from facepin.gpu.background import Background
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
+from facepin.gpu.kept import Kept
 from facepin.gpu.materials import cull_hidden, material_runs, vertex_albedo
 from facepin.gpu.openness import Openness
 from facepin.gpu.programs import load_program
@@ -32,6 +33,8 @@ class Scene:
         self.fine_program = load_program(ctx, "mesh")
         self.fast_program = load_program(ctx, "mesh_fast")
         self.background = Background(ctx)
+        self.kept = Kept()
+        """What overlays share."""
         self._openness: Openness | None = Openness(ctx, rig, order, self.runs, self.indices)
 
     @property
@@ -61,7 +64,8 @@ class Scene:
         """Give the graphics memory back."""
         if self._openness is not None:
             self._openness.release()
-        for item in (self.indices, self.albedo, self.fine_program, self.fast_program, self.background):
+        shared = (self.indices, self.albedo, self.fine_program, self.fast_program, self.background)
+        for item in (*shared, self.kept):
             item.release()
 
 
@@ -71,12 +75,14 @@ class PaneMesh:
     def __init__(self, scene: Scene) -> None:
         size = 12 * scene.rig.vertex_count
         self.scene = scene
-        self._positions = scene.ctx.buffer(reserve=size, dynamic=True)
-        self._normals = scene.ctx.buffer(reserve=size, dynamic=True)
+        self.positions = scene.ctx.buffer(reserve=size, dynamic=True)
+        self.normals = scene.ctx.buffer(reserve=size, dynamic=True)
+        self.kept = Kept()
+        """What overlays need of this pane."""
         self._uploaded: tuple[Points, Points] | None = None
         content = [
-            (self._positions, "3f", "position"),
-            (self._normals, "3f", "normal"),
+            (self.positions, "3f", "position"),
+            (self.normals, "3f", "normal"),
             (scene.albedo, "4f2", "albedo"),
         ]
         self._fine = scene.ctx.vertex_array(scene.fine_program, content, scene.indices)
@@ -98,8 +104,8 @@ class PaneMesh:
         sent = self._uploaded
         if sent is not None and sent[0] is positions and sent[1] is normals:
             return False
-        self._positions.write(np.ascontiguousarray(positions, np.float32))
-        self._normals.write(np.ascontiguousarray(normals, np.float32))
+        self.positions.write(np.ascontiguousarray(positions, np.float32))
+        self.normals.write(np.ascontiguousarray(normals, np.float32))
         self._uploaded = positions, normals
         return True
 
@@ -147,5 +153,5 @@ class PaneMesh:
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        for item in (self._fine, self._fast, self._positions, self._normals):
+        for item in (self.kept, self._fine, self._fast, self.positions, self.normals):
             item.release()

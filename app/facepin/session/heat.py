@@ -1,0 +1,48 @@
+"""How far the vertices of a pane moved since its drag began, for the heat map."""
+
+import numpy as np
+
+from facepin.core.arrays import Floats, Points
+from facepin.core.heat import heat_scale
+from facepin.core.measures import moves
+from facepin.core.rig import Rig
+from facepin.session.session import Pane
+
+
+class HeatGauge:
+    """Measures one pane; keeps the answer, and where the drag began."""
+
+    def __init__(self, rig: Rig) -> None:
+        self._rig = rig
+        self._top = heat_scale(rig.height).top
+        self._began: Floats | None = None
+        self._origin: Points = rig.neutral
+        self._measured: tuple[Points, Points] | None = None
+        self._heat: Points = np.zeros(rig.vertex_count, np.float32)
+
+    def heat(self, pane: Pane, positions: Points) -> Points:
+        """Return the moves of the vertices in shares of the top of the heat scale, (n,) float32.
+
+        Parameters
+        ----------
+        pane : Pane
+            Its last drag tells where moves are measured from; without one it is the neutral.
+        positions : (n, 3) float32
+            Its posed vertices.
+
+        Returns
+        -------
+        (n,) float32
+            A new array only when the moves are others than in the call before.
+        """
+        began = None if pane.began is None else pane.began.weights
+        if began is not self._began:
+            self._began = began
+            self._origin = self._rig.neutral if began is None else self._rig.evaluate(began)
+        measured = (positions, self._origin)
+        if self._measured is None or any(
+            new is not old for new, old in zip(measured, self._measured, strict=True)
+        ):
+            self._measured = measured
+            self._heat = (moves(positions, self._origin) / self._top).astype(np.float32)
+        return self._heat

@@ -362,3 +362,18 @@ def test_the_reference_is_measured_against_and_undone() -> None:
         assert found.far_motion == 0
         app.key("z", control=True)
         assert app.desk.stage.appraise(0).e_rms is None
+
+
+def test_a_dropped_pose_is_loaded(tmp_path: Path) -> None:
+    (tmp_path / "pose.json").write_text(
+        '{"format": "facepin-pose", "version": 1, "weights": {"jawOpen": 0.4}}'
+    )
+    with running() as app:
+        app.step(FilesDropped((tmp_path / "pose.json",)), frames=2)
+        assert app.session.pose.weights[app.session.rig.shape_names.index("jawOpen")] == 0.4
+
+
+def test_warnings_of_a_file_are_shown(shared: Path) -> None:
+    with running(shared / "bad/glb_duplicate_target_names.glb") as app:
+        assert "warning" in app.desk.message
+        assert app.session.rig.warnings

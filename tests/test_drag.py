@@ -123,3 +123,11 @@ def test_new_pins_have_the_freedom_that_is_set(freedom: str) -> None:
     edit = tool.handle(PointerPressed(*pixel_of(40)), sight(freedom=freedom))
     assert edit is not None
     assert edit.pins[0].freedom == freedom
+
+
+def test_a_pin_behind_the_skin_is_not_in_the_way() -> None:
+    x, y, z = RIG.neutral[40].astype(float) - CAMERA.axes[2] * RIG.height
+    pose = rest_pose(RIG).with_pins((Pin(0, (x, y, z)),))  # its goal lies far behind vertex 40
+    edit = DragTool().handle(PointerPressed(*pixel_of(40)), sight(pose))
+    assert edit is not None
+    assert [pin.vertex for pin in edit.pins] == [0, 40]

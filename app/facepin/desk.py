@@ -163,6 +163,8 @@ class Desk:
         """Do what was asked; what can't be done is said in the status line."""
         with self._reporting():
             match request:
+                case OpenPath(path) if path.suffix.lower() in (".json", ".csv") and self.session is not None:
+                    self._load_pose(self.session, path)
                 case OpenPath(path):
                     self.open(path)
                 case CancelLoading() if self.loading is not None:
@@ -276,7 +278,13 @@ class Desk:
         self.stage, self.tool = stage, DragTool()
         self._saved = session.committed
         self.cameras = [frame_points(stage.positions(session.active), viewport.aspect)] * len(session.panes)
-        self.say(session.message, error=bool(session.message))
+        if session.message:
+            self.say(session.message, error=True)
+        elif rig.warnings:
+            more = f" (and {len(rig.warnings) - 1} more)" if len(rig.warnings) > 1 else ""
+            self.say(f"Opened with a warning: {rig.warnings[0]}{more}")
+        else:
+            self.say("")
 
     def _ask(self, command: Command, start: Path) -> None:
         kind, filters = _DIALOGS[command]
@@ -292,9 +300,7 @@ class Desk:
             return
         rig, pose = self.session.rig, self.session.pose
         if self._asked is Command.LOAD_POSE:
-            loaded, report = read_pose(path, rig)
-            self.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
-            self.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
+            self._load_pose(self.session, path)
         elif self._asked is Command.REFERENCE_FROM_FILE:
             loaded, report = read_pose(path, rig)
             self.session.set_reference(loaded.weights)
@@ -306,6 +312,11 @@ class Desk:
         elif self._asked is Command.EXPORT:
             write_model(rig, pose.weights, path)
             self.say(f"Exported {path}")
+
+    def _load_pose(self, session: Session, path: Path) -> None:
+        loaded, report = read_pose(path, session.rig)
+        self.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
+        self.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
 
     def _save_picture(self, stage: Stage, viewport: Viewport) -> None:
         """Write what the active pane shows, without pins and panels, under a name that is free."""

@@ -39,7 +39,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
         timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
     status_line(rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ())
-    if desk.loading is not None:
+    if desk.loading is not None and desk.loading.is_long:
         asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
     if desk.dialog is not None:
         desk.dialog.draw()

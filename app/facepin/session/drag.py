@@ -17,6 +17,8 @@ GRAB_RADIUS = 9.0
 """How near to a pin's marker a press takes the pin, in pixels at 1x scale."""
 DEAD_ZONE = 3.0
 """How far the mouse moves before a click becomes a drag, in pixels at 1x scale."""
+HIDDEN_DEPTH = 0.15
+"""How far behind the skin a pin can be and still be pressed, as a share of the face height."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,8 +152,13 @@ def pin_at(sight: Sight, pixel: tuple[float, float]) -> int | None:
     if not pins or not sight.viewport.contains(*pixel):
         return None
     at = np.concatenate([sight.positions[[pin.vertex for pin in pins]], [pin.goal for pin in pins]])
-    x, y, _ = sight.camera.project(at, sight.viewport).T
+    x, y, depth = sight.camera.project(at, sight.viewport).T
     gaps = np.hypot(x - pixel[0], y - pixel[1])
     gaps = np.where(np.isfinite(gaps), gaps, np.inf)
     nearest = int(np.argmin(gaps))
-    return pins[nearest % len(pins)].vertex if gaps[nearest] <= GRAB_RADIUS * sight.scale else None
+    if gaps[nearest] > GRAB_RADIUS * sight.scale:
+        return None
+    # A pin on the far side of the head is seen dimly, and must not be in the way of the skin before it.
+    hit = pick(sight.positions, sight.triangles, sight.camera, sight.viewport, pixel)
+    behind = hit is not None and depth[nearest] > hit.distance + HIDDEN_DEPTH * sight.rig.height
+    return None if behind else pins[nearest % len(pins)].vertex

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 from threading import Thread
+from time import monotonic
 
 from facepin.core.rig import Rig
 
@@ -20,6 +21,7 @@ class Loading:
     def __init__(self, path: Path, open_path: Open) -> None:
         self.path = path
         self.fraction = 0.0
+        self.began = monotonic()
         self.line = "Opening"
         self._cancelled = False
         self._rig: Rig | None = None
@@ -30,6 +32,11 @@ class Loading:
     def cancel(self) -> None:
         """Give up as soon as the reader reports progress."""
         self._cancelled = True
+
+    @property
+    def is_long(self) -> bool:
+        """Whether it takes long enough to be spoken of."""
+        return monotonic() - self.began > 0.25
 
     @property
     def finished(self) -> bool:

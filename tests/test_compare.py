@@ -145,6 +145,8 @@ def test_pictures_are_whole_and_as_large_as_asked(made: Path) -> None:
         with Image.open(path) as picture:
             picture.load()
             assert np.ptp(np.asarray(picture)) > 100
+    for name in ("comparison", "motion"):
+        assert (made / f"{name}.png").is_file()
     with Image.open(made / "comparison.png") as picture:
         assert picture.width > 4 * SIZE[0] and picture.height > 2 * SIZE[1]
         assert picture.getpixel((0, 0)) == (255, 255, 255)
@@ -175,6 +177,24 @@ def test_panes_show_pose_pins_and_measures() -> None:
     where = painter.camera.project(comparison.answers[0].positions[list(VERTICES)], _whole())[:, :2]
     assert all(changed[round(y), round(x)] or changed[round(y), round(x) + 2] for x, y in where)
     assert solved.lines[0].startswith("pin error") and "ms" not in "".join(solved.lines)
+
+
+def test_motion_is_grey_at_rest_and_coloured_by_length() -> None:
+    from facepin.gpu.picture import open_context
+
+    with open_context() as ctx:
+        painter = Painter(ctx, RIG, SIZE)
+        rest, little, much = (
+            painter.paint(RIG.neutral, moved=np.full(81, share * 2.0)).astype(int)
+            for share in (0, 0.02, 0.05)
+        )
+        painter.release()
+
+    def spread(image: np.ndarray) -> int:
+        return int(np.ptp(image[SIZE[1] // 2, SIZE[0] // 2, :3]))
+
+    assert spread(rest) < 20 < spread(little)
+    assert much[..., :3].sum() > little[..., :3].sum() > rest[..., :3].sum()
 
 
 def _whole() -> object:

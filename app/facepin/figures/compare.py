@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 
 from facepin.core.camera import View
 from facepin.core.errors import FacepinError
+from facepin.core.measures import moves
 from facepin.core.pose import Pose
 from facepin.figures import charts
 from facepin.figures.comparison import Answer, Comparison, as_json, compare, weights_csv
-from facepin.figures.pictures import Painter, Pane, write_sheet
+from facepin.figures.pictures import Painter, Pane, heat_legend, write_sheet
 from facepin.files.atomic import atomic_write
 from facepin.files.pins_file import write_pins
 from facepin.files.pose_file import write_pose
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 PANE = (480, 560)
 LARGEST_PANE = 4096
+BEYOND = "white: further than the scale goes"
 
 
 def add_options(parser: ArgumentParser) -> None:
@@ -87,7 +89,7 @@ def write_comparison(
     tell("Pictures")
     with context_or_word() as ctx:
         if ctx is not None:
-            written += write_picture(folder, comparison, ctx, size, view)
+            written += write_pictures(folder, comparison, ctx, size, view)
     return written
 
 
@@ -163,16 +165,36 @@ def write_charts(folder: Path, comparison: Comparison, made_by: str = "") -> lis
     return [path for name, figure in figures.items() for path in charts.write_chart(folder, name, figure)]
 
 
-def write_picture(
+def write_pictures(
     folder: Path, comparison: Comparison, ctx: "moderngl.Context", size: tuple[int, int], view: View
 ) -> list[Path]:
-    """Write the faces side by side as comparison.png; return its path."""
+    """Write the faces side by side, and how far their vertices moved, as .png; return the paths."""
     painter = Painter(ctx, comparison.rig, size, view)
     try:
-        panes = comparison_panes(comparison, painter)
+        faces, motion = comparison_panes(comparison, painter), motion_panes(comparison, painter)
     finally:
         painter.release()
-    return [write_sheet(folder / "comparison.png", panes, origin_line(comparison))]
+    origin, legend = origin_line(comparison), heat_legend(comparison.rig)
+    return [
+        write_sheet(folder / "comparison.png", faces, origin),
+        write_sheet(folder / "motion.png", motion, f"{origin}; {BEYOND}", legend=legend),
+    ]
+
+
+def motion_panes(comparison: Comparison, painter: Painter) -> list[Pane]:
+    """Return how far each vertex moved since the start: in the reference, if any, and in every answer."""
+    rig, start = comparison.rig, comparison.start
+    origin = rig.evaluate(start.weights)
+    panes = []
+    if comparison.reference is not None:
+        meant = rig.evaluate(comparison.reference)
+        image = painter.paint(meant, moved=moves(meant, origin))
+        panes.append(Pane(image, "Reference", "what should move", colour=REFERENCE.colour))
+    for answer in comparison.answers:
+        image = painter.paint(answer.positions, start.pins, moves(answer.positions, origin))
+        far = f"{comparison.far_name} {share(comparison, answer.far_motion)}"
+        panes.append(Pane(image, answer.title, far, colour=INKS[answer.key].colour))
+    return panes
 
 
 def comparison_panes(comparison: Comparison, painter: Painter, *, timed: bool = True) -> list[Pane]:
@@ -206,21 +228,23 @@ def comparison_panes(comparison: Comparison, painter: Painter, *, timed: bool = 
 def measured_lines(comparison: Comparison, answer: Answer, *, timed: bool = True) -> tuple[str, ...]:
     """Return what is measured about an answer, in words for a picture."""
 
-    def share(length: float) -> str:
-        value = comparison.percent(length)
-        return f"{value:.2f}\u00a0%" if value < 10 else f"{value:,.0f}\u00a0%"
-
     lines = []
     if answer.e_rms is not None:
         lines.append(f"E_RMS {charts.number(answer.e_rms)}")
     lines += [
-        f"pin error {share(answer.pin_error)}",
-        f"{comparison.far_name} {share(answer.far_motion)}",
+        f"pin error {share(comparison, answer.pin_error)}",
+        f"{comparison.far_name} {share(comparison, answer.far_motion)}",
         f"{answer.out_of_range} out of range, {answer.active} active",
     ]
     if timed:
         lines.append(f"{answer.milliseconds:.2f} ms per solve")
     return tuple(lines)
+
+
+def share(comparison: Comparison, length: float) -> str:
+    """Return a length in per cent of the face height, in words."""
+    value = comparison.percent(length)
+    return f"{value:.2f}\u00a0%" if value < 10 else f"{value:,.0f}\u00a0%"
 
 
 def origin_line(comparison: Comparison) -> str:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from facepin.core.arrays import Points
+from facepin.core.arrays import Floats, Points
 from facepin.core.camera import Camera, View, frame_points
-from facepin.core.measures import REST, moves
+from facepin.core.heat import heat_colours, heat_scale
+from facepin.core.measures import REST, moves, percent
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
@@ -26,6 +27,8 @@ Image = NDArray[np.uint8]
 TITLE_INK, TEXT_INK, DIM_INK, FOOTER_INK = "#16181d", "#33363c", "#5f6368", "#80868b"
 
 SUPERSAMPLING = 2
+LEGEND_WIDTH = 20.0
+"""In letter heights."""
 MARGIN = 0.14
 """Share of a pane left free on each side of the face at rest, for it to move into."""
 STIRRED = 0.02
@@ -52,9 +55,13 @@ class Painter:
         while not self._scene.refined:
             self._scene.refine()
 
-    def paint(self, positions: Points, pins: tuple[Pin, ...] = ()) -> Image:
-        """Return a picture of a posed face, (h, w, 4) uint8, with a marker per pin and a line to its goal."""
+    def paint(self, positions: Points, pins: tuple[Pin, ...] = (), moved: Floats | None = None) -> Image:
+        """Return a picture of a posed face, (h, w, 4) uint8, with a marker per pin and a line to its goal.
+
+        With `moved` (n,), lengths in the rig's unit, colours show how far each vertex moved (`heat_legend`).
+        """
         from facepin.gpu.markers import Markers, MarkerState
+        from facepin.gpu.pane import Overlays
         from facepin.gpu.picture import draw_picture
 
         self._mesh.upload(positions, self._normals.normals(positions))
@@ -63,6 +70,9 @@ class Painter:
             np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
             np.full(len(pins), MarkerState.SELECTED, np.uint8),
         )
+        heat = None
+        if moved is not None:
+            heat = (moved / heat_scale(self._rig.height).top).astype(np.float32)
         scale = SUPERSAMPLING * max(self.size[1] / 600, 0.5)
         return draw_picture(
             self._mesh,
@@ -70,6 +80,7 @@ class Painter:
             self.size,
             samples=0,
             supersampling=SUPERSAMPLING,
+            overlays=Overlays(heat=heat),
             overlay=lambda canvas, framing: self._markers.draw_framed(canvas, framing, markers, scale=scale),
         )
 
@@ -112,7 +123,23 @@ class Pane:
     """Of the mark before the title, #rrggbb."""
 
 
-def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "") -> Image:
+@dataclass(frozen=True, eq=False)
+class Legend:
+    """A bar of colours."""
+
+    colours: Floats
+    """(m, 3) sRGB 0..1 from left to right."""
+    labels: tuple[str, ...]
+    """Evenly spaced below it."""
+
+
+def heat_legend(rig: Rig) -> Legend:
+    """Return the legend of `Painter.paint` with `moved`, in per cent of the face height."""
+    ticks = heat_scale(rig.height).ticks
+    return Legend(heat_colours(), tuple(f"{percent(tick, rig.height):.2g} %" for tick in ticks))
+
+
+def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "", legend: Legend | None = None) -> Image:
     """Return panes side by side on white paper, (h, w, 3) uint8.
 
     Parameters
@@ -123,6 +150,8 @@ def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "") -> Image:
         Panes in a row; 0 for as many as look well.
     footer : str
         What made the sheet, in small letters at the bottom.
+    legend : Legend
+        Of the colours in the panes, at the bottom on the right.
     """
     from PIL import Image as Pillow
     from PIL import ImageDraw
@@ -135,7 +164,8 @@ def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "") -> Image:
     bold, plain, small = _font("Bold", 1.1 * em), _font("Regular", 0.86 * em), _font("Regular", 0.72 * em)
     tops = [_head_height(row, em) for row in rows]
     bottoms = [round(line * max(len(pane.lines) for pane in row) + 0.5 * em) for row in rows]
-    whole = sum(tops) + sum(bottoms) + len(rows) * height + gap + (round(1.4 * em) if footer else 0)
+    foot = round((2.6 if legend else 1.4 if footer else 0) * em)
+    whole = sum(tops) + sum(bottoms) + len(rows) * height + gap + foot
     paper = Pillow.new("RGB", (columns * width + (columns + 1) * gap, whole), "white")
     draw = ImageDraw.Draw(paper)
     y = inch
@@ -154,8 +184,17 @@ def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "") -> Image:
                 draw.text((x, below), _shortened(text, plain, width), TEXT_INK, plain)
         y += top + height + bottom
     if footer:
-        words = _shortened(footer, small, paper.width - 2 * gap)
+        room = paper.width - 2 * gap - (0 if legend is None else LEGEND_WIDTH * em)
+        words = _shortened(footer, small, room)
         draw.text((gap, paper.height - gap - 0.7 * em), words, FOOTER_INK, small)
+    if legend is not None:
+        bar = np.rint(255 * legend.colours).astype(np.uint8)[None]
+        wide, high = round((LEGEND_WIDTH - 4) * em), round(0.7 * em)
+        left, y = paper.width - gap - wide - round(1.4 * em), paper.height - gap - round(2.0 * em)
+        paper.paste(Pillow.fromarray(bar).resize((wide, high), Pillow.Resampling.BILINEAR), (round(left), y))
+        for at, label in enumerate(legend.labels):
+            x = left + wide * at / (len(legend.labels) - 1)
+            draw.text((x, y + high + 0.25 * em), label, TEXT_INK, small, anchor="ma")
     return np.asarray(paper)
 
 
@@ -166,7 +205,9 @@ def _head_height(row: Sequence[Pane], em: float) -> int:
     return round((2.2 if any(pane.title for pane in row) else 0.5) * em)
 
 
-def write_sheet(path: Path, panes: Sequence[Pane], footer: str = "", columns: int = 0) -> Path:
+def write_sheet(
+    path: Path, panes: Sequence[Pane], footer: str = "", columns: int = 0, legend: Legend | None = None
+) -> Path:
     """Write a sheet as .png and return its path.
 
     Raises
@@ -176,7 +217,7 @@ def write_sheet(path: Path, panes: Sequence[Pane], footer: str = "", columns: in
     """
     from facepin.gpu.picture import png_bytes
 
-    atomic_write(path, png_bytes(sheet(panes, columns, footer)))
+    atomic_write(path, png_bytes(sheet(panes, columns, footer, legend)))
     return path
 
 

@@ -14,17 +14,20 @@ from facepin.core.rig import Rig
 from facepin.figures import charts
 from facepin.figures.animator import Protocol, drawable, make_task
 from facepin.figures.compare import (
+    BEYOND,
     comparison_panes,
     made_folder,
     measured_lines,
+    motion_panes,
     origin_line,
     settings_line,
+    share,
     write_charts,
     write_numbers,
 )
 from facepin.figures.comparison import Comparison, compare
 from facepin.figures.page import Remake
-from facepin.figures.pictures import Painter, Pane, write_sheet
+from facepin.figures.pictures import Painter, Pane, heat_legend, write_sheet
 from facepin.figures.posing import DELIGHT, dragged, handles, most_moved_in_sight, named_weights
 from facepin.session.solving import choose
 from facepin.solvers.colours import INKS, REFERENCE
@@ -91,8 +94,8 @@ def one_pin(studio: Studio) -> Remake:
         title="One pin, transposition against pseudo-inverse",
         text=(
             "One pin is dragged down and to the side, and both solvers get the same goal: the transposition "
-            f"uses {ours.active} shapes and stops {_share(comparison, ours.pin_error)} short of it, the "
-            f"pseudo-inverse uses {theirs.active} and stops {_share(comparison, theirs.pin_error)} short. "
+            f"uses {ours.active} shapes and stops {share(comparison, ours.pin_error)} short of it, the "
+            f"pseudo-inverse uses {theirs.active} and stops {share(comparison, theirs.pin_error)} short. "
             f"{_sentence(comparison)}"
         ),
         seeded=False,
@@ -304,6 +307,18 @@ def _remade(
                 "The faces; orange: pins, with lines to their goals",
             )
         )
+        motion = motion_panes(comparison, studio.front)
+        images.append(
+            (
+                write_sheet(
+                    folder / "motion.png",
+                    motion,
+                    f"{origin_line(comparison)}{seed}; {BEYOND}",
+                    legend=heat_legend(comparison.rig),
+                ),
+                "How far each vertex moved",
+            )
+        )
     numbers = write_numbers(folder, comparison)
     paths = {path.name: path for path in write_charts(folder, comparison, seed)}
     captions = {
@@ -319,7 +334,7 @@ def _remade(
 def _sentence(comparison: Comparison) -> str:
     """Say how far each solver moves what should rest."""
     found = _listed(
-        f"{_share(comparison, answer.far_motion)} ({answer.title})" for answer in comparison.answers
+        f"{share(comparison, answer.far_motion)} ({answer.title})" for answer in comparison.answers
     )
     meant = comparison.reference is not None
     return (
@@ -330,11 +345,6 @@ def _sentence(comparison: Comparison) -> str:
 def _listed(items: Iterable[str]) -> str:
     *first, last = items
     return f"{', '.join(first)} and {last}" if first else last
-
-
-def _share(comparison: Comparison, length: float) -> str:
-    value = comparison.percent(length)
-    return f"{value:.2f}\u00a0%" if value < 10 else f"{value:,.0f}\u00a0%"
 
 
 def _e_rms(weights: Floats, reference: Floats) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from facepin.figures import charts
+from facepin.figures import chart_style, charts
 from facepin.figures.charts import Series
 from facepin.solvers import SOLVERS
 from facepin.solvers.colours import INKS, REFERENCE
@@ -85,19 +85,19 @@ def test_any_number_of_shapes_makes_charts(shapes: int, tmp_path: Path) -> None:
         "weights": charts.weight_bars(names, limits, series, "a note"),
         "errors": charts.error_charts(names, np.zeros(shapes), series, "a note"),
     }.items():
-        for path in charts.write_chart(tmp_path, name, figure):
+        for path in chart_style.write_chart(tmp_path, name, figure):
             assert path.stat().st_size > 1000
 
 
 def test_files_are_pictures_and_the_same_each_time(tmp_path: Path) -> None:
-    first = charts.write_chart(tmp_path, "first", charts.slider_panels(NAMES, LIMITS, SERIES))
-    second = charts.write_chart(tmp_path, "second", charts.slider_panels(NAMES, LIMITS, SERIES))
+    first = chart_style.write_chart(tmp_path, "first", charts.slider_panels(NAMES, LIMITS, SERIES))
+    second = chart_style.write_chart(tmp_path, "second", charts.slider_panels(NAMES, LIMITS, SERIES))
     assert [path.suffix for path in first] == [".png", ".svg"]
     for one, other in zip(first, second, strict=True):
         assert one.read_bytes() == other.read_bytes()
     with Image.open(first[0]) as picture:
         inches = 1.45 + 3 * (1.25 + 0.65)
-        assert picture.width == pytest.approx(inches * charts.DPI, abs=2)
+        assert picture.width == pytest.approx(inches * chart_style.DPI, abs=2)
     assert ElementTree.parse(first[1]).getroot().tag.endswith("svg")
 
 
@@ -105,4 +105,4 @@ def test_files_are_pictures_and_the_same_each_time(tmp_path: Path) -> None:
     ("value", "text"), [(0, "0"), (0.18734, "0.187"), (2.8387, "2.84"), (987.4, "987"), (4312.0, "4,312")]
 )
 def test_numbers_have_three_digits_that_matter(value: float, text: str) -> None:
-    assert charts.number(value) == text
+    assert chart_style.number(value) == text

@@ -1,105 +1,32 @@
-"""The style of all charts, and the paper's charts of a comparison: sliders, weights, errors.
+"""The paper's charts: sliders (Figure 3), weights (Figure 4), errors (Figure 6), and γ of the hybrid."""
 
-Figures are made with matplotlib's objects, never with pyplot: nothing is kept between them and no window
-system is touched.
-"""
-
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-from io import BytesIO
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats
 from facepin.core.measures import ACTIVE, LIMIT_SLACK, weight_errors
+from facepin.figures.chart_style import ALARM, DIM, FAINT, TEXT, TRACK, add_note, chart_style, number
 from facepin.figures.comparison import Comparison
-from facepin.files.atomic import atomic_write
-from facepin.resources import resource
 from facepin.solvers.colours import INKS, REFERENCE, Ink
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-DPI = 200
-TEXT, DIM, FAINT, TRACK, ALARM = "#16181d", "#5f6368", "#b4b8bd", "#e9ebee", "#b3261e"
 MOST_SLIDERS = 28
+"""Rows of sliders."""
 MOST_NAMES = 70
 """With more shapes than this, charts name only the strongest."""
 STRETCH = 2.5
 """Weights beyond this are shown on a scale that is even up to 1 and logarithmic beyond."""
 LEAST_SINGULAR = 1e-4
+"""Singular values below this are drawn there."""
 SLIDER_RANGE = (-1.0, 2.0)
 """Bars of sliders are cut here; the number says how far they go."""
-
-
-@contextmanager
-def chart_style() -> Iterator[None]:
-    """Make and save figures in one look: for all charts of the program."""
-    from matplotlib import rc_context
-
-    look: Any = {
-        "font.family": _font_family(),
-        "font.size": 8.5,
-        "text.color": TEXT,
-        "axes.edgecolor": FAINT,
-        "axes.labelcolor": DIM,
-        "axes.linewidth": 0.7,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "axes.titlesize": 9.5,
-        "axes.titleweight": "bold",
-        "axes.titlelocation": "left",
-        "axes.axisbelow": True,
-        "axes.unicode_minus": True,
-        "grid.color": TRACK,
-        "grid.linewidth": 0.7,
-        "xtick.color": FAINT,
-        "ytick.color": FAINT,
-        "xtick.labelcolor": DIM,
-        "ytick.labelcolor": DIM,
-        "xtick.major.width": 0.7,
-        "ytick.major.width": 0.7,
-        "legend.frameon": False,
-        "savefig.facecolor": "white",
-        "svg.hashsalt": "facepin",
-    }
-    with rc_context(look):
-        yield
-
-
-@cache
-def _font_family() -> str:
-    """Make the program's own font known to matplotlib."""
-    from matplotlib.font_manager import fontManager
-
-    for weight in ("Regular", "Bold"):
-        fontManager.addfont(str(resource("assets", f"fonts/Roboto-{weight}.ttf")))
-    return "Roboto"
-
-
-def write_chart(folder: Path, name: str, figure: "Figure") -> list[Path]:
-    """Write a figure as name.png and name.svg and return their paths; the same figure gives the same bytes.
-
-    Raises
-    ------
-    FacepinError
-        If they cannot be written.
-    """
-    paths = []
-    with chart_style():
-        for kind in ("png", "svg"):
-            file = BytesIO()
-            figure.savefig(file, format=kind, dpi=DPI, metadata={"Date": None} if kind == "svg" else None)
-            figure.set_layout_engine("none")  # it is laid out now
-            paths.append(folder / f"{name}.{kind}")
-            atomic_write(paths[-1], file.getvalue())
-    return paths
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,16 +51,6 @@ def series_of(comparison: Comparison) -> list[Series]:
     return found
 
 
-def number(value: float) -> str:
-    """Return a figure with three digits that matter, as people write it."""
-    if value == 0:
-        return "0"
-    size = abs(value)
-    if size >= 1e5 or size < 1e-3:
-        return f"{value:.1e}"
-    return f"{value:,.{max(2 - int(np.floor(np.log10(size))), 0)}f}"
-
-
 def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series], note: str = "") -> "Figure":
     """Draw the sliders of several sets of weights side by side (Figure 3): name, bar and number.
 
@@ -150,20 +67,20 @@ def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]
     height = top + inner + bottom
     with chart_style():
         figure = Figure((width, height))
-        for number_, each in enumerate(series):
-            left = name_width + number_ * (bar_width + number_width)
+        for place, each in enumerate(series):
+            left = name_width + place * (bar_width + number_width)
             panel = figure.add_axes((left / width, bottom / height, bar_width / width, inner / height))
             _sliders(panel, rows, limits, each, (low, high))
             panel.set_xlim(low, high)
             panel.set_ylim(len(rows) - 0.4, -0.6)
-            labels = [names[j] for j in rows.tolist()] if number_ == 0 else [""] * len(rows)
+            labels = [names[j] for j in rows.tolist()] if place == 0 else [""] * len(rows)
             panel.set_yticks(range(len(rows)), labels, color=TEXT, fontsize=8)
             panel.tick_params(axis="y", length=0)
             panel.set_xticks([value for value in (-1, 0, 1, 2) if low <= value <= high])
             panel.spines["left"].set_visible(False)
             hidden = np.delete(np.abs(each.weights), rows)
             panel.set_xlabel(_rest(hidden), fontsize=7.5, loc="left")
-        _note(figure, note)
+        add_note(figure, note)
     return figure
 
 
@@ -243,7 +160,7 @@ def weight_bars(names: Sequence[str], limits: Floats, series: Sequence[Series], 
             row.tick_params(axis="x", length=0)
         _name_shapes(rows[-1], names, [each.weights for each in series])
         figure.supylabel(f"weight{scale}", fontsize=8.5, color=DIM)
-        _note(figure, note)
+        add_note(figure, note)
     return figure
 
 
@@ -284,7 +201,7 @@ def error_charts(
         )
         lines.set_xlim(-0.8, k - 0.2)
         _name_shapes(lines, names, errors)
-        _note(figure, note)
+        add_note(figure, note)
     return figure
 
 
@@ -316,7 +233,7 @@ def gamma_chart(smallest: Sequence[float], note: str = "") -> "Figure":
             fontsize=7.5,
         )
         axes.legend(loc="upper right")
-        _note(figure, note)
+        add_note(figure, note)
     return figure
 
 
@@ -355,12 +272,6 @@ def _value_scale(axes: "Axes", values: Sequence[Floats]) -> str:
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}".replace("-", "−")))
     return " (logarithmic beyond 1)"
-
-
-def _note(figure: "Figure", note: str) -> None:
-    """Say at the bottom of a chart what made it."""
-    if note:
-        figure.supxlabel(note, x=0.008, ha="left", fontsize=6.5, color="#80868b")
 
 
 def _ticks(largest: float) -> list[float]:

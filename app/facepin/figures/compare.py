@@ -13,6 +13,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.measures import moves
 from facepin.core.pose import Pose
 from facepin.figures import charts
+from facepin.figures.chart_style import number, write_chart
 from facepin.figures.comparison import Answer, Comparison, as_json, compare, weights_csv
 from facepin.figures.pictures import Painter, Pane, heat_legend, write_sheet
 from facepin.files.atomic import atomic_write
@@ -162,7 +163,7 @@ def write_charts(folder: Path, comparison: Comparison, made_by: str = "") -> lis
     }
     if comparison.reference is not None:
         figures["errors"] = charts.error_charts(rig.shape_names, comparison.reference, series[1:], note)
-    return [path for name, figure in figures.items() for path in charts.write_chart(folder, name, figure)]
+    return [path for name, figure in figures.items() for path in write_chart(folder, name, figure)]
 
 
 def write_pictures(
@@ -230,7 +231,7 @@ def measured_lines(comparison: Comparison, answer: Answer, *, timed: bool = True
 
     lines = []
     if answer.e_rms is not None:
-        lines.append(f"E_RMS {charts.number(answer.e_rms)}")
+        lines.append(f"E_RMS {number(answer.e_rms)}")
     lines += [
         f"pin error {share(comparison, answer.pin_error)}",
         f"{comparison.far_name} {share(comparison, answer.far_motion)}",

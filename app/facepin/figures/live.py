@@ -8,7 +8,8 @@ import numpy as np
 
 from facepin.core.errors import FacepinError
 from facepin.core.measures import e_rms
-from facepin.figures.charts import Series, error_charts, number, slider_panels, weight_bars, write_chart
+from facepin.figures.chart_style import number, write_chart
+from facepin.figures.charts import Series, error_charts, slider_panels, weight_bars
 from facepin.files.atomic import atomic_write
 from facepin.session.session import Session
 from facepin.solvers.colours import INKS, REFERENCE

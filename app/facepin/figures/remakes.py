@@ -11,8 +11,9 @@ from facepin.core.arrays import Floats, frozen
 from facepin.core.measures import moves
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
-from facepin.figures import charts
 from facepin.figures.animator import Protocol, drawable, make_task
+from facepin.figures.chart_style import number, write_chart
+from facepin.figures.charts import gamma_chart
 from facepin.figures.compare import (
     BEYOND,
     comparison_panes,
@@ -110,9 +111,7 @@ def target_pose(studio: Studio) -> Remake:
     start = _neutral(rig, dragged(rig, most_moved_in_sight(rig, wanted, PINS), wanted))
     keys = ("transpose", "pseudo_inverse", "tikhonov", "sparse")
     comparison = compare(rig, [choose(key) for key in keys], start, meant)
-    errors = _listed(
-        f"{charts.number(answer.e_rms or 0.0)} ({answer.title})" for answer in comparison.answers
-    )
+    errors = _listed(f"{number(answer.e_rms or 0.0)} ({answer.title})" for answer in comparison.answers)
     return _remade(
         studio,
         "figure-4-6",
@@ -193,7 +192,7 @@ def hybrid_pins(studio: Studio) -> Remake:
         float(np.linalg.svd(rig.rows_at([pin.vertex for pin in pins[:count]]), compute_uv=False)[-1])
         for count in range(1, len(pins) + 1)
     ]
-    _, chart = charts.write_chart(folder, "gamma", charts.gamma_chart(smallest, origin))
+    _, chart = write_chart(folder, "gamma", gamma_chart(smallest, origin))
     images.append((chart, "The smallest singular value of the pin rows, and γ, by number of pins"))
     mixtures = _listed(f"{gamma:.3f} with {count}" for gamma, count in zip(gammas, counts, strict=True))
     return Remake(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from facepin.figures.animator import FRAMES, Outcome, drawable
-from facepin.figures.charts import DIM, chart_style, number, write_chart
+from facepin.figures.chart_style import DIM, chart_style, number, write_chart
 from facepin.figures.compare import made_folder
 from facepin.figures.study import Row, Study
 from facepin.files.atomic import atomic_write

@@ -18,6 +18,13 @@ def held(vertex: int, move: tuple[float, float, float], **more: object) -> Pin:
     return Pin(vertex, (x, y, z), **more)
 
 
+def towards(shape: int, weight: float) -> Pin:
+    """A pin where a shape moves most, with its goal where the shape would bring it."""
+    moves = RIG.deltas[:, [shape]].toarray().reshape(-1, 3)
+    vertex = int(np.argmax(np.linalg.norm(moves, axis=1)))
+    return held(vertex, tuple((weight * moves[vertex]).tolist()))
+
+
 def test_a_drag_is_solved_from_where_it_began_whatever_its_path() -> None:
     far, goal = held(30, (0.9, 0.4, -0.3)), held(30, (0.2, 0.1, 0.0))
     direct, wandering = (Session(RIG, [choose("tikhonov")]) for _ in range(2))
@@ -151,3 +158,87 @@ def test_screen_pins_constrain_what_the_screen_shows() -> None:
 def test_an_unknown_solver_is_refused_with_the_known_ones() -> None:
     with pytest.raises(FacepinError, match=r"no solver 'magic'.*transpose"):
         choose("magic")
+
+
+def test_a_solver_that_takes_all_pins_afresh_does_not_jump_at_a_press() -> None:
+    session = Session(RIG, [choose("sparse")])
+    session.apply(Edit("Set", True, weights=np.array([0.0, 0.0, 0.6, 0.0])))
+    first = towards(1, 0.6)
+    session.apply(Edit("Drag pin", True, (first,), solve=True))
+    before = session.pose
+    x, y, z = RIG.evaluate(before.weights)[41].astype(float).tolist()
+    session.apply(Edit("Place pin", True, (first, Pin(41, (x, y, z)))))
+    assert session.pose.weights is before.weights
+    session.apply(Edit("Drag pin", True, session.pose.pins, solve=True))
+    np.testing.assert_allclose(session.pose.weights, before.weights, atol=1e-6)
+
+
+def test_the_order_of_the_drags_leaves_no_trace_in_such_a_solver() -> None:
+    one, two = towards(1, 0.6), towards(2, 0.8)
+    ends = []
+    for order in ((one, two), (two, one)):
+        session = Session(RIG, [choose("sparse")])
+        for count in (1, 2):
+            session.apply(Edit("Drag pin", True, order[:count], solve=True))
+        ends.append(session.pose.weights)
+    np.testing.assert_allclose(ends[0], ends[1], atol=1e-6)
+
+
+@pytest.mark.parametrize("solver", ["sparse", "transpose"])
+def test_what_a_removed_pin_made_stays(solver: str) -> None:
+    session = Session(RIG, [choose(solver)])
+    session.apply(Edit("Drag pin", True, (towards(1, 0.6),), solve=True))
+    made = session.pose.weights
+    assert made.any()
+    session.apply(Edit("Remove pin", True, ()))
+    assert session.pose.weights is made
+    x, y, z = RIG.evaluate(made)[41].astype(float).tolist()
+    session.apply(Edit("Drag pin", True, (Pin(41, (x, y, z)),), solve=True))
+    np.testing.assert_allclose(session.pose.weights, made, atol=1e-6)
+
+
+def test_panes_are_added_closed_and_kept_with_undo() -> None:
+    session = Session(RIG, [choose("transpose")])
+    session.apply(Edit("Drag pin", True, (held(30, (0.2, 0.1, 0)),), solve=True))
+    session.add_pane(choose("tikhonov"))
+    assert [pane.choice.kind.key for pane in session.panes] == ["transpose", "tikhonov"]
+    # The new pane shows what its solver makes of the drag that was just done.
+    alone = Session(RIG, [choose("tikhonov")])
+    alone.apply(Edit("Drag pin", True, (held(30, (0.2, 0.1, 0)),), solve=True))
+    np.testing.assert_array_equal(session.pose.weights, alone.pose.weights)
+    session.close_pane(0)
+    assert [pane.choice.kind.key for pane in session.panes] == ["tikhonov"]
+    session.undo()
+    session.undo()
+    assert [pane.choice.kind.key for pane in session.panes] == ["transpose"]
+    for key in ("tikhonov", "hybrid", "sparse"):
+        session.add_pane(choose(key))
+    with pytest.raises(FacepinError, match="4 panes"):
+        session.add_pane(choose("bounded"))
+
+
+def test_a_random_walk_is_undone_and_redone_exactly() -> None:
+    random = np.random.default_rng(3)
+    session = Session(RIG, [choose("transpose")])
+    seen = [session.work]
+    for _ in range(60):
+        pins = tuple(held(int(v), tuple(random.uniform(-0.2, 0.2, 3))) for v in random.choice(81, 3, False))
+        match random.integers(5):
+            case 0:
+                session.apply(Edit("Set", True, weights=random.uniform(0, 1, 4)))
+            case 1:
+                session.apply(Edit("Place pin", True, pins))
+            case 2:
+                session.choose_solver(0, choose(str(random.choice(list(SOLVERS)))))
+            case 3:
+                session.set_reference(random.uniform(0, 1, 4))
+            case _:
+                session.apply(Edit("Drag pin", False, pins, solve=True))
+                session.apply(Edit("Drag pin", True, pins, solve=True))
+        seen.append(session.work)
+    for work in reversed(seen[:-1]):
+        assert session.undo()
+        assert session.work is work
+    for work in seen[1:]:
+        assert session.redo()
+        assert session.work is work

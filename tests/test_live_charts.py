@@ -2,12 +2,12 @@ import csv
 from pathlib import Path
 
 import numpy as np
-from small_rigs import sheet
 
 from facepin.figures.live import write_session_charts
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 from facepin.session.solving import choose
+from small_rigs import sheet
 
 
 def test_what_the_panes_show_is_in_the_table_and_in_pictures(tmp_path: Path) -> None:

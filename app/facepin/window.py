@@ -98,8 +98,8 @@ class Window:
         self.ctx = moderngl.create_context(context=_Loader())  # type: ignore[arg-type]  # its stub wants a dict
         glfw.swap_interval(0 if windowless else 1)
         self._forced_scale = scale
-        # Where the last event left the mouse.  Asking in a callback would tell where it is by now: after a slow
-        # frame, far from where the button went down.
+        # Where the last event left the mouse.  Asking in a callback would tell where it is by now: after a
+        # slow frame, far from where the button went down.
         x, y = glfw.get_cursor_pos(self._handle)
         self._cursor = (x * self.pixel_ratio, y * self.pixel_ratio)
         self._windowless = windowless

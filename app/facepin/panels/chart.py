@@ -1,4 +1,4 @@
-"""The chart window: weights of all panes as bars (Figure 4), their errors against the reference (Figure 6)."""
+"""The chart window: weights of all panes as bars (Figure 4), errors against the reference (Figure 6)."""
 
 from collections.abc import Sequence
 

@@ -47,8 +47,8 @@ class Solved:
     weights: Floats
     """(k,) float64, finite, read-only."""
     pin_error: float
-    """Mean distance from the pins' vertices to their goals after the solve, in the rig's unit; for screen pins
-    across the line of sight only.  0 without pins."""
+    """Mean distance from the pins' vertices to their goals after the solve, in the rig's unit; for screen
+    pins across the line of sight only.  0 without pins."""
     seconds: float
     """Time of the solve itself."""
     notes: Mapping[str, float] = field(default_factory=dict)

@@ -1,5 +1,8 @@
 #version 330 core
-// Another pose, to be compared with the face.
+// Another pose, to be compared with the face: a shell that shines at its rim.  Its light is soft, so computing it
+// at vertices is enough.
+
+#include "studio.glsl"
 
 uniform mat4 to_view;
 uniform mat4 to_clip;
@@ -9,20 +12,28 @@ in vec3 position;
 in vec3 normal;
 in vec4 albedo;   // linear base colour; a: how open to the sky
 
-out vec3 view_normal;
-out vec3 at;
-out float tone;   // lips, brows and creases are darker, so that they can be told
+centroid out vec4 shell;
+centroid out vec2 depth;   // along the view axis; how much of it is across the surface
+
+const vec3 COLOUR = vec3(0.32, 0.74, 1.00);   // seen on skin and on the wall
+const float VEIL = 0.36, SHINE = 0.54;
 #endif
 
 invariant gl_Position;   // both passes must find the same depth
 
 void main()
 {
-    vec4 view = to_view * vec4(position, 1.0);
+    vec4 at = to_view * vec4(position, 1.0);
 #ifndef DEPTH_ONLY
-    view_normal = mat3(to_view) * normal;
-    at = view.xyz;
-    tone = sqrt(dot(albedo.rgb, vec3(0.21, 0.72, 0.07)) * albedo.a);
+    vec3 to_eye = -normalize(at.xyz), n = normalize(mat3(to_view) * normal);
+    float facing = dot(n, to_eye);
+    n = facing < 0.0 ? -n : n;
+    float rim = 1.0 - abs(facing), edge = rim * rim * (1.5 - 0.5 * rim);
+    // Lips, brows and creases are darker, so that they can be told.
+    float tone = sqrt(dot(albedo.rgb, vec3(0.21, 0.72, 0.07)) * albedo.a);
+    float light = min((0.75 + 0.30 * dot(n, KEY)) * (0.30 + 0.90 * tone), 1.0);
+    shell = vec4(mix(COLOUR * light, vec3(1.0), 0.3 * edge), VEIL + SHINE * edge);
+    depth = vec2(-at.z, max(abs(facing), 0.05));
 #endif
-    gl_Position = to_clip * view;
+    gl_Position = to_clip * at;
 }

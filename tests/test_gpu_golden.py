@@ -1,4 +1,4 @@
-"""Two pictures that people have looked at and liked; `pytest --regenerate` stores them anew."""
+"""Pictures that people have looked at and liked; `pytest --regenerate` stores them anew."""
 
 from pathlib import Path
 
@@ -8,13 +8,16 @@ import pytest
 from PIL import Image
 
 from facepin.core.camera import Camera, Viewport, frame_points
+from facepin.core.heat import heat_scale
+from facepin.core.measures import moves
 from facepin.core.normals import NormalField
 from facepin.core.picking import pick
 from facepin.core.rig import Rig
 from facepin.files import open_rig
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.markers import MarkerLayer, Markers
-from facepin.gpu.picture import png_bytes, render_picture
+from facepin.gpu.pane import Overlays
+from facepin.gpu.picture import draw_picture, png_bytes, render_picture
 from facepin.gpu.scene import PaneMesh, Scene
 from facepin.resources import resource
 
@@ -73,3 +76,24 @@ def test_smile_with_pins(gl: moderngl.Context, ada: Rig, request: pytest.Fixture
     for item in (layer, canvas, mesh, scene):
         item.release()
     check("smile", image, gl, request)
+
+
+def test_overlays(gl: moderngl.Context, ada: Rig, request: pytest.FixtureRequest) -> None:
+    shapes = {"jawOpen": 0.7, "mouthLeft": 0.8, "browInnerUp": 0.8}
+    positions = ada.evaluate(np.array([shapes.get(name, 0.0) for name in ada.shape_names]))
+    camera = frame_points(ada.neutral, 1.0, Camera(radius=0.0).looking("three-quarter")).zoomed(1.6)
+    scene = Scene(gl, ada)
+    face, neutral = PaneMesh(scene), PaneMesh(scene)
+    for mesh, pose in ((face, positions), (neutral, ada.neutral)):
+        mesh.upload(pose, NormalField(ada).normals(pose))
+    heat = (moves(positions, ada.neutral) / heat_scale(ada.height).top).astype(np.float32)
+    looks = {
+        "heat": Overlays(heat=heat),
+        "wire": Overlays(wireframe=True),
+        "ghost": Overlays(ghost=neutral),
+    }
+    pictures = {name: draw_picture(face, camera, (SIZE, SIZE), overlays=look) for name, look in looks.items()}
+    for item in (neutral, face, scene):
+        item.release()
+    for name, image in pictures.items():
+        check(name, image, gl, request)

@@ -84,7 +84,7 @@ def _cut(corners: Indices, sizes: Indices) -> tuple[Numbers, Numbers]:
     return quads.astype(np.intp), triangles.astype(np.intp)
 
 
-def paired(triangles: Numbers, neutral: Points) -> tuple[Numbers, Numbers]:
+def paired(triangles: Numbers, neutral: Points, flat: float = FLAT) -> tuple[Numbers, Numbers]:
     """Take triangles (3, t) that follow each other and lie flat side by side for the quads they once were.
 
     Most files hold triangles only, each quad cut in two: half as many cells are half the work on every frame.
@@ -106,7 +106,7 @@ def paired(triangles: Numbers, neutral: Points) -> tuple[Numbers, Numbers]:
     corners = _cross(np.roll(sides, 1, axis=1), sides)
     length = _length(corners)
     # Flat and convex: the four corners point the same way.
-    fits &= ((corners * corners[:, :1]).sum(axis=0) > FLAT * length * length[0]).all(axis=0)
+    fits &= ((corners * corners[:, :1]).sum(axis=0) > flat * length * length[0]).all(axis=0)
     # In a run of triangles that could all pair up, pair the first two, the next two, …
     begins = np.maximum.accumulate(np.where(fits, 0, number + 1))
     taken = np.flatnonzero(fits & ((number - begins) % 2 == 0))

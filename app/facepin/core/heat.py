@@ -14,7 +14,7 @@ STEPS = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 COUNT = 3
 """Steps from 0 to the top."""
 
-STOPS = ("#606266", "#5c66b4", "#8a5fc4", "#c25ba8", "#e56d74", "#f59243", "#f9bf36", "#f6ee68")
+STOPS = ("#626367", "#576cb7", "#9371cb", "#d476b6", "#f8898a", "#ffab61", "#ffcf50", "#fcf271")
 """sRGB from nothing to the top: grey, then blue, red, yellow, ever lighter.  What changes most, lightness and
 blue against yellow, is what people see who confuse red and green."""
 BEYOND = "#ffffff"

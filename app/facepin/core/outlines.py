@@ -9,6 +9,9 @@ from facepin.core.cells import paired
 from facepin.core.rig import Part, Rig
 from facepin.core.topology import weld_map
 
+FOLDED = 0.88
+"""Cosine of the angle (28 degrees) by which a quad may be folded along its diagonal."""
+
 
 def outlines(rig: Rig, parts: Iterable[Part]) -> Indices:
     """Return the edges of the faces of some parts, each once.
@@ -31,7 +34,7 @@ def outlines(rig: Rig, parts: Iterable[Part]) -> Indices:
     following[starts + sizes - 1] = starts
 
     is_triangle = np.repeat(sizes == 3, sizes)
-    quads, triangles = paired(corners[is_triangle].reshape(-1, 3).T, rig.neutral)
+    quads, triangles = paired(corners[is_triangle].reshape(-1, 3).T, rig.neutral, FOLDED)
     loops = [
         np.stack([cells, np.roll(cells, -1, axis=0)], axis=-1).reshape(-1, 2) for cells in (quads, triangles)
     ]

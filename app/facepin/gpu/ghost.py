@@ -18,19 +18,23 @@ class GhostLook:
     """What all ghosts share."""
 
     def __init__(self, scene: Scene) -> None:
-        ctx = scene.ctx
-        self.depth = load_program(ctx, "ghost", "DEPTH_ONLY")
-        # Depth with several samples per pixel is another type of texture, hence another program.
-        self.plain = load_program(ctx, "ghost")
-        self.multisampled = load_program(ctx, "ghost", "MULTISAMPLED")
-        for program in (self.plain, self.multisampled):
+        self._scene = scene
+        self.depth = load_program(scene.ctx, "ghost", "DEPTH_ONLY")
+        self._shells: dict[int, moderngl.Program] = {}
+
+    def shell(self, samples: int) -> moderngl.Program:
+        """Return the program for canvases with that many samples per pixel: their depth differs in type."""
+        if samples not in self._shells:
+            defined = (f"SAMPLES {samples}",) if samples else ()
+            program = self._shells[samples] = load_program(self._scene.ctx, "ghost", *defined)
             program["depth_map"] = 0
-            program["close"] = CLOSE * scene.rig.height
-            program["deep"] = DEEP * scene.rig.height
+            program["close"] = CLOSE * self._scene.rig.height
+            program["deep"] = DEEP * self._scene.rig.height
+        return self._shells[samples]
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        for program in (self.depth, self.plain, self.multisampled):
+        for program in (self.depth, *self._shells.values()):
             program.release()
 
 
@@ -41,24 +45,22 @@ class GhostLayer:
         scene = mesh.scene
         self._scene = scene
         self._look = scene.kept.get(lambda: GhostLook(scene), GhostLook)
-        position = (mesh.positions, "3f", "position")
-        more = [(mesh.normals, "3f", "normal"), (scene.albedo, "4f2", "albedo")]
-        self._depth = scene.ctx.vertex_array(self._look.depth, [position], scene.indices)
-        self._shells = {
-            program: scene.ctx.vertex_array(program, [position, *more], scene.indices)
-            for program in (self._look.plain, self._look.multisampled)
-        }
+        self._position = (mesh.positions, "3f", "position")
+        self._more = [(mesh.normals, "3f", "normal"), (scene.albedo, "4f2", "albedo")]
+        self._depth = scene.ctx.vertex_array(self._look.depth, [self._position], scene.indices)
+        self._shells: dict[int, moderngl.VertexArray] = {}
 
     def draw(self, canvas: Canvas, framing: Framing) -> None:
         """Draw the shell over a face that is drawn already; the depth of the canvas stays."""
-        look = self._look
-        shell = look.multisampled if canvas.samples else look.plain
-        for program in (look.depth, shell):
+        depth, shell = self._look.depth, self._look.shell(canvas.samples)
+        if canvas.samples not in self._shells:
+            content = [self._position, *self._more]
+            array = self._scene.ctx.vertex_array(shell, content, self._scene.indices)
+            self._shells[canvas.samples] = array
+        for program in (depth, shell):
             program["to_view"] = column_major(framing.to_view)
             program["to_clip"] = column_major(framing.to_clip)
         shell["pixel_angle"] = framing.ray_of_pixel[1]
-        if canvas.samples:
-            shell["samples"] = canvas.samples
         # Only what is nearest of the shell shines, or the head would be full of its own inside.
         framing.use(canvas.second_depth)
         canvas.second_depth.clear(depth=1.0)
@@ -66,7 +68,7 @@ class GhostLayer:
         canvas.depth.use(0)
         framing.use(canvas.with_second_depth)
         self._scene.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        self._render(self._shells[shell], "<=", moderngl.BLEND)
+        self._render(self._shells[canvas.samples], "<=", moderngl.BLEND)
 
     def _render(self, array: moderngl.VertexArray, depth_func: str, *flags: int) -> None:
         ctx = self._scene.ctx

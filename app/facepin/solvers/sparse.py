@@ -11,6 +11,9 @@ RIDGE = 1e-6
 """Pull towards the start, in units of `system.scale`: picks one answer where several cost the same (two equal
 shapes, say), and is too weak to be seen."""
 
+LEAST = 1 / 3
+"""A shape is priced as if it moved the face by at least this share of what shapes usually do."""
+
 
 @dataclass(frozen=True)
 class SparseSettings:
@@ -26,11 +29,15 @@ class SparseSettings:
 
 
 def prepare(system: PinSystem, settings: SparseSettings) -> Solve:
-    """w = argmin ½‖J w - d‖² + Σ λⱼ max(wⱼ - w0ⱼ, 0) with l ≤ w ≤ u, and λⱼ = λ mⱼ √scale.
+    """w = argmin ½‖J w - d‖² + Σ λⱼ max(wⱼ - w0ⱼ, 0) with l ≤ w ≤ u, where λⱼ = λ √scale max(mⱼ, √scale / 3).
 
-    mⱼ (`system.sizes`) is the largest vertex move of shape j, so what is paid for is motion of the face, not
-    travel of a slider: a shape that moves the face by a millimetre may go all the way for what a tenth of a
-    centimetre costs.  λ (`price`) has no unit; √scale is the rms of all mⱼ.
+    mⱼ (`system.sizes`) is the largest vertex move of shape j, and √scale the rms of them all; λ (`price`) has
+    no unit.  So what is paid for is motion of the face, not travel of a slider: with one price for all
+    weights the jaw is cheap for what it moves, and gets used for what lips and cheeks should do.  But a shape
+    that hardly moves anything must not cost next to nothing, or it is put to use for the trembling of a hand.
+    Measured with the study (several seeds; a scanned face with 53 shapes and with 100 identities besides, a
+    narrower one, the built-in one): vertex error and far motion a third to two thirds of those with one price
+    for all; without the least price, E_RMS with the 153 shapes is twice as large.
 
     w0 is the last pose that no drag made (see `SolverKind.afresh`).  For most faces that is the neutral:
     w0 = 0, and the price is λⱼ wⱼ.  What was set by hand is not punished: lowering it costs nothing, and
@@ -42,7 +49,7 @@ def prepare(system: PinSystem, settings: SparseSettings) -> Solve:
     minimise = prepare_boxed(system, RIDGE * system.scale)
     unit = system.scale**0.5
     sizes = np.full(system.rows.shape[1], unit) if system.sizes is None else system.sizes
-    price = settings.price * unit * sizes
+    price = settings.price * unit * np.maximum(sizes, LEAST * unit)
 
     def solve(displacement: Floats, start: Floats) -> Solution:
         leaving = Price(start, np.where(start >= 0, price, 0.0), np.where(start <= 0, price, 0.0))

@@ -74,7 +74,7 @@ class Stage:
         return self._scene.refined
 
     def refine(self) -> bool:
-        """Do some of the work that pictures get better by, a few milliseconds; return whether they look new."""
+        """Do some of the work that makes pictures better, a few milliseconds; return whether they look new."""
         return self._scene.refine()
 
     def update(self) -> bool:

@@ -94,7 +94,7 @@ class Canvas:
         self._copy(self.framebuffer, other.framebuffer)
 
     def resolve(self, target: moderngl.Framebuffer, part: Viewport | None = None) -> None:
-        """Copy the picture, or a part of it, to a framebuffer of the same size: pixels are means of samples."""
+        """Copy the picture, or a part, to a framebuffer of the same size: pixels are means of samples."""
         # Not from the one with depth: depth would be copied too, or refused where its format differs.
         self._copy(self.overlay, target, part)
 

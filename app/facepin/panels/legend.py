@@ -44,9 +44,7 @@ def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float
         return
     draw = imgui.get_background_draw_list()
     left, top = right - width, bottom - tall
-    draw.add_rect_filled(
-        imgui.ImVec2(left, top), imgui.ImVec2(right, bottom), packed(PANEL, 0.72), 3 * scale
-    )
+    draw.add_rect_filled(imgui.ImVec2(left, top), imgui.ImVec2(right, bottom), packed(PANEL, 0.72), 3 * scale)
     draw.add_text(imgui.ImVec2(left + padding, top + padding), packed(TEXT), "Moved")
 
     colours = _bands()

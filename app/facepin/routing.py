@@ -35,16 +35,23 @@ class Router:
     ) -> list[Request]:
         """Let a frame's events happen: edits are applied, the camera is moved, other wishes are returned.
 
-        However many mouse events came, the face is solved once: the last step of a gesture holds all of it.
+        However many moves of the mouse came, the face is solved once: the last step of a gesture holds all of
+        it.  What ends a gesture happens at once, since the next event may begin another on what it left.
         """
         asked: list[Request] = []
         pending: Edit | None = None
         for event in events:
+            in_hand = desk.tool.holding
             edit = self._route(event, desk, viewports, scale, asked)
-            if edit is not None:
-                if pending is not None and pending.final:
-                    desk.apply(pending)
+            if edit is not None and edit.final:
+                desk.apply(edit)
+                if desk.stage is not None:
+                    desk.stage.update()
+                pending = None
+            elif edit is not None:
                 pending = edit
+            elif in_hand and not desk.tool.holding:  # given up: nothing of it may come after
+                pending = None
         if pending is not None:
             desk.apply(pending)
         return asked
@@ -60,12 +67,13 @@ class Router:
         match event:
             case CloseRequested():
                 asked.append(Command.QUIT)
-            case FilesDropped(paths):
-                first = paths[0]
+            case FilesDropped((first, *_)):
                 asked.append(OpenPath(first.parent if first.suffix.lower() == ".obj" else first))
             case KeyPressed() if not imgui.get_io().want_text_input:
                 command = command_for(event)
-                if command is not None:
+                in_hand = desk.tool.holding or self.navigator.holding
+                # What a gesture began with must not change under it; a picture of it may be taken.
+                if command is not None and (not in_hand or command is Command.SCREENSHOT):
                     asked.append(command)
                 elif desk.stage is not None:
                     if event.key == "escape" and desk.tool.holding:
@@ -112,10 +120,11 @@ class Router:
         return edit
 
     def _navigate(self, event: Event, desk: Desk, viewports: Sequence[Viewport]) -> None:
-        before = desk.cameras[self._pane]
-        camera = self.navigator.handle(event, before, viewports[self._pane])
+        pane = min(self._pane, len(viewports) - 1, len(desk.cameras) - 1)  # it may have been closed meanwhile
+        before = desk.cameras[pane]
+        camera = self.navigator.handle(event, before, viewports[pane])
         if camera is not before:
-            desk.look(camera, self._pane)
+            desk.look(camera, pane)
 
     def _sight(self, desk: Desk, stage: Stage, viewports: Sequence[Viewport], scale: float) -> Sight:
         pane = min(self._pane, len(viewports) - 1, len(stage.session.panes) - 1)

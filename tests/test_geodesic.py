@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 from facepin.core.geodesic import geodesic_distances, shape_locality
+from facepin.core.pose import Pin, pin_displacement, pin_rows
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import build_rig
 from facepin.core.topology import weld_map
 from facepin.files import open_rig
+from facepin.session.solving import PinSolver, choose
+from facepin.solvers.transpose import TransposeSettings
 from small_rigs import sheet
 
 
@@ -129,3 +132,14 @@ def test_shapes_that_move_nothing_are_nowhere() -> None:
         "still", rig.neutral, rig.corners, rig.face_sizes, [("a", rig.neutral * 0), ("b", rig.neutral * 0)]
     )
     np.testing.assert_array_equal(shape_locality(still, [3], 1.0), [0, 0])
+
+
+def test_a_radius_reaches_the_solver_in_per_cent_of_the_height() -> None:
+    rig = sheet(shapes=5)
+    pins = (Pin(30, (0.3, 0.2, 0.1)), Pin(50, (0.1, -0.2, 0.0)))
+    rows, displacement = pin_rows(rig, pins), pin_displacement(rig, pins)
+    shares = shape_locality(rig, [30, 50], 0.4 * rig.height)
+    g = shares * (displacement @ rows)
+    step = (displacement @ rows @ g) / np.sum((rows @ g) ** 2)
+    solved = PinSolver(rig, choose("transpose", TransposeSettings(radius=40.0))).solve(pins, np.zeros(5))
+    np.testing.assert_allclose(solved.weights, step * g, rtol=1e-9)

@@ -5,6 +5,7 @@ from pathlib import Path
 from threading import Thread
 from time import monotonic
 
+from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
 
 Open = Callable[[Path, Callable[[float, str], None]], Rig]
@@ -48,14 +49,18 @@ class Loading:
 
         Raises
         ------
-        FacepinError
-            When the file can't be opened.
+        FacepinError, OSError
+            When the file can't be opened; also when the reader has a fault, since a file must not take what
+            is being posed down with it.
         """
         self._thread.join()
-        if isinstance(self._error, _GivenUp):
+        if self._cancelled:
             return None
-        if self._error is not None:
+        if isinstance(self._error, FacepinError | OSError):
             raise self._error
+        if self._error is not None:
+            fault = f"{type(self._error).__name__}: {self._error}".removesuffix(": ")
+            raise FacepinError(f"{self.path.name}: opening it failed ({fault})") from self._error
         return self._rig
 
     def _run(self, open_path: Open) -> None:

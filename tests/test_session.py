@@ -242,3 +242,24 @@ def test_a_random_walk_is_undone_and_redone_exactly() -> None:
     for work in seen[1:]:
         assert session.redo()
         assert session.work is work
+
+
+@pytest.mark.parametrize(("closed", "active"), [(0, 1), (2, 1), (1, 0), (1, 2)])
+def test_closing_another_pane_leaves_the_active_one_active(closed: int, active: int) -> None:
+    session = Session(RIG, [choose(key) for key in ("transpose", "tikhonov", "sparse")])
+    session.active = active
+    kept = session.pane
+    session.close_pane(closed)
+    assert session.pane is kept
+
+
+@pytest.mark.parametrize("weight", [np.nan, np.inf])
+def test_no_weight_that_is_not_finite_gets_in(weight: float) -> None:
+    session = Session(RIG, [choose("transpose")])
+    before = session.work
+    weights = np.array([0.1, weight, 0.0, 0.0])
+    session.apply(Edit("Set", False, weights=weights))
+    session.apply(Edit("Set", True, weights=weights))
+    assert session.work is before
+    assert not session.in_gesture
+    assert RIG.shape_names[1] in session.message

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose, rest_pose
@@ -150,8 +152,10 @@ class Session:
         """Close one of several panes."""
         before = self._history.current
         if len(before.panes) > 1:
+            active = self.active
             panes = (*before.panes[:at], *before.panes[at + 1 :])
             self._show("Close a pane", replace(before, panes=panes), final=True)
+            self._active = active - 1 if at < active else active
 
     def keep_pane(self, at: int) -> None:
         """Go on with one pane's pose alone."""
@@ -184,10 +188,19 @@ class Session:
             self._history.commit(label, work)
 
     def _edited(self, panes: tuple[Pane, ...], edit: Edit) -> tuple[Pane, ...]:
-        """Return the panes after an edit."""
+        """Return the panes after an edit.
+
+        Raises
+        ------
+        FacepinError
+            When a solver fails, or a weight that was typed is not finite.
+        """
         pins = panes[0].pose.pins if edit.pins is None else edit.pins
         poses = [pane.pose.with_pins(pins) for pane in panes]
         if edit.weights is not None:
+            if not np.isfinite(edit.weights).all():
+                shape = self.rig.shape_names[int(np.argmin(np.isfinite(edit.weights)))]
+                raise FacepinError(f"{edit.label}: the weight of {shape} is not a finite number")
             pose = poses[self.active].with_weights(edit.weights)
             if edit.pins is None:
                 pose = snapped(self.rig, pose)

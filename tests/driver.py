@@ -114,6 +114,7 @@ def running(
         app = App(window, loop, next(loop))
         if wait:
             app.until(lambda: app.desk.loading is None)
-            app.until(lambda: app.desk.stage is None or (app.desk.stage.refined and not app.frame.drawn))
+            app.until(lambda: app.desk.stage is None or app.desk.stage.refined)
+            app.step(frames=4)
         yield app
         loop.close()

@@ -377,3 +377,19 @@ def test_warnings_of_a_file_are_shown(shared: Path) -> None:
     with running(shared / "bad/glb_duplicate_target_names.glb") as app:
         assert "warning" in app.desk.message
         assert app.session.rig.warnings
+
+
+def test_overlays_are_toggled_by_keys_and_change_the_picture() -> None:
+    with running() as app:
+        pictures = [app.screenshot().astype(int)]
+        for key in ("w", "w", "g", "g"):
+            app.key(key)
+            app.until(lambda: not app.frame.drawn)
+            pictures.append(app.screenshot().astype(int))
+        viewport = app.frame.viewport
+        inside = (slice(100, int(viewport.height)), slice(100, int(viewport.width) - 100))
+        changes = [np.abs(a[inside] - b[inside]).mean() for a, b in zip(pictures, pictures[1:], strict=False)]
+        assert changes[0] > 1
+        assert changes[1] > 1
+        np.testing.assert_array_equal(pictures[0][inside], pictures[2][inside])
+        np.testing.assert_array_equal(pictures[0][inside], pictures[4][inside])

@@ -214,6 +214,15 @@ class Desk:
                 session.set_reference(pose.weights)
             case Command.REFERENCE_RANDOM:
                 session.set_reference(_random_weights(rig))
+            case Command.HEAT:
+                shown = self.view.panes[session.active]
+                shown.heat = not shown.heat
+            case Command.WIREFRAME:
+                shown = self.view.panes[session.active]
+                shown.wireframe = not shown.wireframe
+            case Command.GHOST:
+                has_reference = session.work.reference is not None
+                self.view.panes[session.active].next_ghost(has_reference=has_reference)
             case Command.CHART:
                 self.view.chart = not self.view.chart
             case Command.SAVE_CHART:
@@ -323,7 +332,9 @@ class Desk:
         size = (max(round(viewport.width), 1), max(round(viewport.height), 1))
         while not stage.refined:
             stage.refine()
-        image = draw_picture(stage.mesh(stage.session.active), self.camera, size)
+        active = stage.session.active
+        overlays = stage.overlays(active, self.view.panes[active])
+        image = draw_picture(stage.mesh(active), self.camera, size, overlays=overlays)
         path = self._free_name(stage.session.rig.name, ".png")
         atomic_write(path, png_bytes(image))
         self.say(f"Saved {path}")

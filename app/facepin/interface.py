@@ -10,6 +10,7 @@ from facepin.core.pose import Pose
 from facepin.desk import Desk
 from facepin.panels import layout
 from facepin.panels.chart import chart_window
+from facepin.panels.legend import heat_legend
 from facepin.panels.menu import menu_bar, pin_menu
 from facepin.panels.pane_title import pane_title
 from facepin.panels.requests import Request
@@ -104,6 +105,9 @@ def over_picture(
                 active=at == session.active,
                 has_reference=session.work.reference is not None,
             )
+    for view, place in zip(desk.view.panes, viewports, strict=False):
+        if view.heat:
+            heat_legend(session.rig.height, place, pixel_ratio, scale)
     if not session.pose.pins and not session.pose.weights.any():
         hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
     return asked

@@ -110,7 +110,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         if settling < 0:
             # Nothing to do: time for what makes the picture better, then sleep.
             better = desk.stage is not None and not desk.stage.refined and desk.stage.refine()
-            settling = 1 if better else -1
+            settling = SETTLE if better else -1
             wait = IDLE_WAIT if desk.stage is None or desk.stage.refined else 0.0
             yield Frame(desk, viewport, viewports, False, 0.0)
             continue

@@ -6,6 +6,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.pose import Freedom, Pin
+from facepin.panels.overlays import overlay_items
 from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, OpenPath, Request, SetPin
 from facepin.panels.view import View
 from facepin.session.session import MOST_PANES, Session
@@ -72,6 +73,9 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         for command in (Command.FRAME, Command.FRONT, Command.LEFT, Command.RIGHT, Command.THREE_QUARTER):
             asked = _item(command) or asked
         imgui.separator()
+        if session is not None:
+            overlay_items(view.panes[session.active], has_reference=session.work.reference is not None)
+            imgui.separator()
         if imgui.begin_menu("Smooth edges"):
             for quality, title in view.QUALITIES.items():
                 if imgui.menu_item_simple(title, selected=view.quality == quality):

@@ -5,19 +5,14 @@ import dataclasses
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
+from facepin.panels.overlays import overlay_items
 from facepin.panels.requests import ClosePane, KeepPane, Request, UseSolver
 from facepin.panels.theme import TEXT, WARNING, Colour, packed
-from facepin.panels.view import Ghost, PaneView
+from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal
 from facepin.session.session import Pane
 from facepin.session.solving import SolverChoice, choose
 from facepin.solvers import SOLVERS
-
-GHOSTS: dict[Ghost, str] = {
-    "none": "No ghost",
-    "neutral": "Ghost of the neutral",
-    "reference": "Ghost of the reference",
-}
 
 
 def pane_title(
@@ -104,14 +99,18 @@ def pane_title(
 
 
 def _short(choice: SolverChoice) -> str:
-    """Settings that are not the default, in a few words."""
-    usual = choice.kind.settings()
+    """Settings in a few words; those that have no effect now are left out."""
     words = []
     for field in dataclasses.fields(choice.settings):
+        when = field.metadata["when"]
         value = getattr(choice.settings, field.name)
-        if value != getattr(usual, field.name):
-            shown = f"{value:.3g}" if isinstance(value, float) else str(value)
-            words.append(f"{field.name.replace('_', ' ')} {shown}")
+        if value is False or (when is not None and getattr(choice.settings, when[0]) != when[1]):
+            continue
+        name = field.name.replace("_", " ")
+        if value is True:
+            words.append(name)
+        else:
+            words.append(f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}")
     return ", ".join(words + ["within limits"] * choice.keep_limits)
 
 
@@ -140,15 +139,7 @@ def _menu(at: int, pane: Pane, view: PaneView, *, has_reference: bool) -> list[R
         if imgui.menu_item_simple(kind.title, selected=kind is pane.choice.kind):
             asked.append(UseSolver(at, choose(key, keep_limits=pane.choice.keep_limits)))
     imgui.separator()
-    if imgui.menu_item_simple("Heat map of the move", selected=view.heat):
-        view.heat = not view.heat
-    if imgui.menu_item_simple("Wireframe", selected=view.wireframe):
-        view.wireframe = not view.wireframe
-    for ghost, title in GHOSTS.items():
-        if imgui.menu_item_simple(
-            title, selected=view.ghost == ghost, enabled=ghost != "reference" or has_reference
-        ):
-            view.ghost = ghost
+    overlay_items(view, has_reference=has_reference)
     imgui.separator()
     if imgui.menu_item_simple("Keep this one"):
         asked.append(KeepPane(at))

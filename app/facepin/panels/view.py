@@ -22,6 +22,11 @@ class PaneView:
     ghost: Ghost = "none"
     """Another pose that shines through."""
 
+    def next_ghost(self, *, has_reference: bool) -> None:
+        """Go on to the next ghost there is."""
+        ghosts: tuple[Ghost, ...] = ("none", "neutral", "reference") if has_reference else ("none", "neutral")
+        self.ghost = ghosts[(ghosts.index(self.ghost) + 1) % len(ghosts)] if self.ghost in ghosts else "none"
+
     @property
     def key(self) -> tuple[bool, bool, Ghost]:
         """Equal keys look the same."""

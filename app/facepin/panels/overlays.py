@@ -1,0 +1,27 @@
+"""The menu items of what a pane shows over its face."""
+
+from imgui_bundle import imgui
+
+from facepin.panels.requests import Command
+from facepin.panels.view import Ghost, PaneView
+
+GHOSTS: dict[Ghost, str] = {
+    "none": "No ghost",
+    "neutral": "Ghost of the neutral",
+    "reference": "Ghost of the reference",
+}
+
+
+def overlay_items(view: PaneView, *, has_reference: bool) -> None:
+    """Draw a menu item for each overlay of a pane, changed in place."""
+    if imgui.menu_item_simple(Command.HEAT.title, Command.HEAT.shortcuts[0], selected=view.heat):
+        view.heat = not view.heat
+    if imgui.menu_item_simple(
+        Command.WIREFRAME.title, Command.WIREFRAME.shortcuts[0], selected=view.wireframe
+    ):
+        view.wireframe = not view.wireframe
+    for ghost, title in GHOSTS.items():
+        there = ghost != "reference" or has_reference
+        shortcut = Command.GHOST.shortcuts[0] if ghost == "none" else None
+        if imgui.menu_item_simple(title, shortcut, selected=view.ghost == ghost, enabled=there):
+            view.ghost = ghost

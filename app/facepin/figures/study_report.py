@@ -115,10 +115,9 @@ def summary_chart(study: Study) -> "Figure":
         figure = Figure((11.0, 0.24 * len(rows) + 1.3), layout="constrained")
         panels = figure.subplots(1, len(CHARTED), sharey=True, squeeze=False)[0]
         for panel, name in zip(panels, CHARTED, strict=True):
-            words = [HEADINGS[name].replace("\n", " ")]
-            words += ["% of face height"] if name.endswith("percent") else []
-            words += _dots(panel, rows, [float(getattr(row.outcome, name)) for row in rows])
-            panel.set_title(", ".join(words))
+            _dots(panel, rows, [float(getattr(row.outcome, name)) for row in rows])
+            unit = ", %" if name.endswith("percent") else ""
+            panel.set_title(HEADINGS[name].replace("\n", " ") + unit)
         labels = [f"{row.choice.kind.title}, {row.freedom}" for row in rows]
         panels[0].set_yticks(range(len(rows)), labels, fontsize=8)
         panels[0].invert_yaxis()
@@ -126,12 +125,13 @@ def summary_chart(study: Study) -> "Figure":
     return figure
 
 
-def _dots(panel: "Axes", rows: tuple[Row, ...], values: list[float]) -> list[str]:
-    """Draw a mark for each value, and return what has to be said about the scale."""
+def _dots(panel: "Axes", rows: tuple[Row, ...], values: list[float]) -> None:
+    """Draw a mark for each value."""
     positive = [value for value in values if value > 0]
     logarithmic = len(positive) == len(values) and max(values) > 30 * min(values)
     if logarithmic:
         panel.set_xscale("log")
+        panel.set_xlabel("logarithmic", fontsize=7.5)
     for at, (row, value) in enumerate(zip(rows, values, strict=True)):
         ink = INKS[row.choice.kind.key]
         panel.plot(value, at, ink.marker, color=ink.colour, markersize=6, clip_on=False)
@@ -143,4 +143,3 @@ def _dots(panel: "Axes", rows: tuple[Row, ...], values: list[float]) -> list[str
     panel.margins(x=0.22)
     panel.grid(axis="y")
     panel.tick_params(axis="y", length=0)
-    return ["logarithmic"] if logarithmic else []

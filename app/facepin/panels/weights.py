@@ -154,7 +154,9 @@ def _row(
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f" if visible else "0.00")
     imgui.pop_style_color(6)
-    reset = reset or (imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0))
+    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0):
+        reset = True
+        imgui.internal.clear_active_id()  # else the slider goes on following the mouse, away from 0
     finished = imgui.is_item_deactivated_after_edit()
     imgui.pop_id()
     if reset:

@@ -1,0 +1,29 @@
+"""The weights panel under a real mouse's habits: a button stays down for several frames."""
+
+import numpy as np
+
+from driver import App, running
+from facepin.core.events import PointerMoved, PointerPressed, PointerReleased
+from facepin.session.edit import Edit
+
+
+def click(app: App, x: float, y: float) -> None:
+    app.step(PointerPressed(x, y))
+    app.step(PointerMoved(x, y), frames=3)
+    app.step(PointerReleased(x, y), frames=3)
+
+
+def test_a_double_click_on_a_slider_or_on_its_name_resets_it_for_good() -> None:
+    slider, name, y = 1180.0, 990.0, 445.0
+    for at in (slider, name):
+        with running() as app:
+            weights = app.session.pose.weights.copy()
+            weights[:] = 0.6
+            app.session.apply(Edit("Set", True, weights=weights))
+            app.step(PointerMoved(at, y), frames=3)
+            click(app, at, y)
+            click(app, at, y)
+            (reset,) = np.flatnonzero(app.session.pose.weights != weights)
+            assert app.session.pose.weights[reset] == 0
+            assert app.session.undo_label == f"Reset {app.session.rig.shape_names[reset]}"
+            assert not app.session.in_gesture

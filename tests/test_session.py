@@ -253,8 +253,8 @@ def test_closing_another_pane_leaves_the_active_one_active(closed: int, active: 
     assert session.pane is kept
 
 
-@pytest.mark.parametrize("weight", [np.nan, np.inf])
-def test_no_weight_that_is_not_finite_gets_in(weight: float) -> None:
+@pytest.mark.parametrize("weight", [np.nan, np.inf, -3e38])
+def test_no_weight_that_nothing_can_be_drawn_with_gets_in(weight: float) -> None:
     session = Session(RIG, [choose("transpose")])
     before = session.work
     weights = np.array([0.1, weight, 0.0, 0.0])

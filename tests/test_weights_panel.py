@@ -1,6 +1,7 @@
 """The weights panel under a real mouse's habits: a button stays down for several frames."""
 
 import numpy as np
+from imgui_bundle import imgui
 
 from driver import App, running
 from facepin.core.events import PointerMoved, PointerPressed, PointerReleased
@@ -17,6 +18,8 @@ def test_a_double_click_on_a_slider_or_on_its_name_resets_it_for_good() -> None:
     slider, name, y = 1180.0, 990.0, 445.0
     for at in (slider, name):
         with running() as app:
+            imgui.get_io().mouse_single_click_delay = 11
+            imgui.get_io().mouse_double_click_time = 10  # a slow machine is not a slow hand
             weights = app.session.pose.weights.copy()
             weights[:] = 0.6
             app.session.apply(Edit("Set", True, weights=weights))

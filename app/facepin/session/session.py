@@ -9,6 +9,7 @@ from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
+from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.edit import Edit
 from facepin.session.history import History
 from facepin.session.solving import PinSolver, Solved, SolverChoice, snapped
@@ -193,14 +194,18 @@ class Session:
         Raises
         ------
         FacepinError
-            When a solver fails, or a weight that was typed is not finite.
+            When a solver fails, or a weight that was typed is beyond all sense.
         """
         pins = panes[0].pose.pins if edit.pins is None else edit.pins
         poses = [pane.pose.with_pins(pins) for pane in panes]
         if edit.weights is not None:
-            if not np.isfinite(edit.weights).all():
-                shape = self.rig.shape_names[int(np.argmin(np.isfinite(edit.weights)))]
-                raise FacepinError(f"{edit.label}: the weight of {shape} is not a finite number")
+            allowed = np.abs(edit.weights) <= LARGEST_WEIGHT
+            if not allowed.all():
+                j = int(np.argmin(allowed))
+                raise FacepinError(
+                    f"the weight of {self.rig.shape_names[j]} can't be {edit.weights[j]:g}, "
+                    f"allowed are numbers up to {LARGEST_WEIGHT:.0e}"
+                )
             pose = poses[self.active].with_weights(edit.weights)
             if edit.pins is None:
                 pose = snapped(self.rig, pose)

@@ -36,7 +36,7 @@ def prepare(system: PinSystem, settings: SparseSettings) -> Solve:
     weights the jaw is cheap for what it moves, and gets used for what lips and cheeks should do.  But a shape
     that hardly moves anything must not cost next to nothing, or it is put to use for the trembling of a hand.
     Measured with the study on three faces, two seeds each: every single price for all weights, from 0.03 to
-    0.2, ends with a larger vertex error, the best of them by 2 to 40 %; and on a face with 100 identities
+    0.2, ends with a larger vertex error, the best of them by 6 to 37 %; and on a face with 100 identities
     besides its 53 expressions, E_RMS without the least price is twice as large.
 
     w0 is the last pose that no drag made (see `SolverKind.afresh`).  For most faces that is the neutral:

@@ -176,7 +176,14 @@ class Desk:
                 case Command.OPEN_FILE | Command.OPEN_FOLDER:
                     self._ask(request, Path.home() if self.opened is None else self.opened.parent)
                 case _ if self.stage is not None:
+                    # What an earlier request of the same frame changed.
+                    self.sync()
+                    self.stage.update()
                     self._act(request, self.stage, viewport)
+
+    def _say_failure(self, session: Session) -> None:
+        if session.message:
+            self.say(session.message, error=True)
 
     def apply(self, edit: Edit) -> None:
         """Apply an edit to the session, and pass on what it has to say."""
@@ -194,6 +201,8 @@ class Desk:
         """Give everything back."""
         if self.loading is not None:
             self.loading.cancel()
+        if self.dialog is not None:
+            self.dialog.close()
         if self.stage is not None:
             self.stage.release()
 
@@ -204,8 +213,10 @@ class Desk:
         match request:
             case UseSolver(pane, choice, final):
                 session.choose_solver(pane, choice, final=final)
+                self._say_failure(session)
             case AddPane(choice):
                 session.add_pane(choice)
+                self._say_failure(session)
             case ClosePane(pane):
                 session.close_pane(pane)
             case KeepPane(pane):
@@ -296,6 +307,8 @@ class Desk:
             self.say("")
 
     def _ask(self, command: Command, start: Path) -> None:
+        if self.dialog is not None:
+            raise FacepinError("another question for a file waits for its answer")
         kind, filters = _DIALOGS[command]
         self._asked = command
         self.dialog = FileDialog(kind, command.title.rstrip("…"), start, filters, use_native=self._native)

@@ -56,6 +56,12 @@ class FileDialog:
                 case "open folder":
                     self._native = native.select_folder(title, str(start))
 
+    def close(self) -> None:
+        """Give up: a native dialog that is merely dropped holds the program until the user answers it."""
+        if self._native is not None and not self.finished:
+            self._native.kill()
+        self._finish(None)
+
     def draw(self) -> None:
         """Show the question where it is ours to show, and take the answer when there is one."""
         if self._native is None:
@@ -90,9 +96,18 @@ class FileDialog:
         imgui.same_line()
         word = "Save" if self._kind == "save file" else "Open"
         if (imgui.button(word, imgui.ImVec2(width, 0)) or entered) and self._typed.strip():
-            self._finish(Path(self._typed.strip().strip("'\"")).expanduser())
+            self._finish(_typed_path(self._typed))
         imgui.end()
 
     def _finish(self, path: Path | None) -> None:
         self.path = path
         self.finished = True
+
+
+def _typed_path(text: str) -> Path:
+    """Return the path that was meant: shells leave quotes and `~` on what is copied from them."""
+    path = Path(text.strip().strip("'\""))
+    try:
+        return path.expanduser()
+    except RuntimeError:  # no such user: then the file is not found, and that is said
+        return path

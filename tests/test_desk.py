@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from driver import running
+from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
 from facepin.core.events import PointerMoved
 from facepin.core.pose import Pin
-from facepin.panels.requests import AddPane, Command, UseSolver
+from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, UseSolver
 from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose
 
@@ -51,3 +52,32 @@ def test_one_question_for_a_file_at_a_time() -> None:
         assert app.desk.is_error
         app.desk.release()
         assert asked.finished
+
+
+def test_a_pane_keeps_its_camera_and_overlays_when_others_are_closed() -> None:
+    with running(size=(1600, 900)) as app:
+        for key in ("tikhonov", "sparse"):
+            app.desk.carry_out(AddPane(choose(key)), app.frame.viewport)
+        app.step(PointerMoved(5, 5), frames=3)
+        app.desk.view.linked = False
+        for at in range(3):
+            app.desk.look(app.desk.camera.orbited(0.1 * at, 0), at)
+        cameras = list(app.desk.cameras)
+        app.desk.view.panes[1].wireframe = True
+
+        def seen(request: object) -> tuple[list[Camera], list[bool]]:
+            app.desk.carry_out(request, app.frame.viewport)
+            app.step(PointerMoved(6, 6), frames=2)
+            return app.desk.cameras, [view.wireframe for view in app.desk.view.panes]
+
+        assert seen(ClosePane(0)) == (cameras[1:], [True, False])
+        assert seen(KeepPane(1)) == (cameras[2:], [False])
+        assert seen(AddPane(choose("hybrid"))) == ([cameras[2]] * 2, [False, False])
+        for _ in range(2):
+            app.desk.carry_out(Command.UNDO, app.frame.viewport)
+        assert seen(Command.UNDO) == (cameras, [False, True, False])
+        # Linked cameras are one also for a pane that comes back.
+        app.desk.view.linked = True
+        app.desk.carry_out(ClosePane(0), app.frame.viewport)
+        app.desk.look(cameras[1].orbited(1, 0))
+        assert seen(Command.UNDO)[0] == [cameras[1].orbited(1, 0)] * 3

@@ -106,6 +106,10 @@ class Desk:
         self._asked: Command | None = None
         self._saved: Work | None = None
         self._first_pose: Callable[[Rig], Pose] | None = None
+        self._numbers = [0]
+        """Of the panes that `cameras` and `view.panes` are for."""
+        self._looks: dict[int, tuple[Camera, PaneView]] = {}
+        """How panes were looked at, by their numbers."""
 
     @property
     def session(self) -> Session | None:
@@ -297,7 +301,10 @@ class Desk:
             self.stage.release()
         self.stage, self.tool = stage, DragTool()
         self._saved = session.committed
-        self.cameras = [frame_points(stage.positions(session.active), viewport.aspect)] * len(session.panes)
+        count = len(session.panes)
+        self.cameras = [frame_points(stage.positions(session.active), viewport.aspect)] * count
+        self.view.panes = (self.view.panes + [PaneView() for _ in range(count)])[:count]
+        self._numbers, self._looks = [pane.number for pane in session.panes], {}
         if session.message:
             self.say(session.message, error=True)
         elif rig.warnings:
@@ -369,10 +376,16 @@ class Desk:
         return path
 
     def sync(self) -> None:
-        """Have a camera and a view for every pane, also after undo brought panes back."""
-        count = len(self.session.panes) if self.session else 1
-        self.cameras = (self.cameras + [self.cameras[-1]] * count)[:count]
-        self.view.panes += [PaneView() for _ in range(len(self.view.panes), count)]
+        """Give every pane its camera and view, which it keeps when others are closed and finds after undo."""
+        numbers = [pane.number for pane in self.session.panes] if self.session else [0]
+        if numbers == self._numbers:
+            return
+        self._looks |= zip(self._numbers, zip(self.cameras, self.view.panes, strict=True), strict=True)
+        camera = self.cameras[-1]
+        looks = [self._looks.get(number, (camera, PaneView())) for number in numbers]
+        self.cameras = [camera if self.view.linked else own for own, _ in looks]
+        self.view.panes = [view for _, view in looks]
+        self._numbers = numbers
 
     def _reporting(self) -> "_Reporting":
         return _Reporting(self)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import count
 
 import numpy as np
 
@@ -29,10 +30,12 @@ class Pane:
     """The pose before the drag that led here, so that another solver can be asked for the same drag."""
     solved: Solved | None = None
     """The solver's answer, None where the pose is not the solver's."""
+    number: int = 0
+    """Stays the same as long as the pane is there, and comes back with it."""
 
     def by_hand(self, pose: Pose) -> "Pane":
         """Return the pane with a pose that no solver made."""
-        return Pane(self.choice, pose, pose.weights)
+        return Pane(self.choice, pose, pose.weights, number=self.number)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +58,10 @@ class Session:
         self.message = ""
         """Why the last edit could not be carried out as asked; empty when it could."""
         pose = pose or rest_pose(rig)
-        panes = tuple(Pane(choice, pose, pose.weights) for choice in choices)
+        panes = tuple(
+            Pane(choice, pose, pose.weights, number=number) for number, choice in enumerate(choices)
+        )
+        self._numbers = count(len(panes))
         self._history = History(Work(panes))
         self._preview: Work | None = None
         self._active = 0
@@ -145,7 +151,8 @@ class Session:
         if len(before.panes) >= MOST_PANES:
             raise FacepinError(f"{MOST_PANES} panes are open already, no more fit")
         at = len(before.panes)
-        pane = self._with_solver(at, before.panes[self.active], choice)
+        new = replace(before.panes[self.active], number=next(self._numbers))
+        pane = self._with_solver(at, new, choice)
         self._show("Add a pane", replace(before, panes=(*before.panes, pane)), final=True)
         self._active = at
 

@@ -60,7 +60,7 @@ def _expected(key: str, J: np.ndarray, d: np.ndarray, rig: Rig) -> np.ndarray:
         case "sparse":
             sizes = np.linalg.norm(rig.deltas.toarray().T.reshape(k, -1, 3).astype(float), axis=2).max(axis=1)
             scale = np.mean(sizes**2)
-            price = SOLVERS[key].settings().price * sizes * scale**0.5
+            price = SOLVERS[key].settings().price * scale**0.5 * np.maximum(sizes, scale**0.5 / 3)
             return _in_a_box(J.T @ J + 1e-6 * scale * np.eye(k), g - price, rig.limits)
         case "bounded":
             alpha = SOLVERS[key].settings().alpha * rig.scale

@@ -62,7 +62,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     session = desk.session
     request = edit = None
     if imgui.begin(layout.SOLVER)[0] and session is not None:
-        request = solver_panel(session.rig, session.pane, session.active)
+        request = solver_panel(session.rig, session.pane, session.active, desk.view.panes[session.active])
     imgui.end()
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
         edit = weights_panel(

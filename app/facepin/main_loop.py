@@ -119,6 +119,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
             scale = window.scale * view.ui_scale / window.pixel_ratio
             apply_theme(scale)
         desk.poll(viewport)
+        desk.sync()
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.
@@ -127,7 +128,6 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         reset_layout = Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         asked += interface.panels(desk, scale)
-        desk.sync()
         if desk.stage is not None:
             moved = desk.stage.update()
             viewports = layout.split(viewport, len(desk.stage.session.panes), PANE_GAP * window.scale)

@@ -116,6 +116,8 @@ class Stage:
         """Return what `view` shows over the face of a pane; measures and uploads only what it asks for."""
         work, shown = self.session.work, self._shown[pane]
         heat = shown.gauge.heat(work.panes[pane], self.positions(pane)) if view.heat else None
+        if view.reach:
+            heat = shown.gauge.reach(work.panes[pane])
         ghost = None
         if view.ghost == "neutral" or (view.ghost == "reference" and work.reference is not None):
             ghost = self._ghost(view.ghost, None if view.ghost == "neutral" else work.reference)

@@ -11,14 +11,19 @@ from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import UseSolver
 from facepin.panels.theme import WARNING
+from facepin.panels.view import PaneView
 from facepin.session.session import Pane
 from facepin.session.solving import Solved, choose
 from facepin.solvers import SOLVERS
 
 
-def solver_panel(rig: Rig, pane: Pane, at: int) -> UseSolver | None:
-    """Draw the solver of pane number `at`; return what the user changes in this frame, or None."""
+def solver_panel(rig: Rig, pane: Pane, at: int, view: PaneView) -> UseSolver | None:
+    """Draw the solver of pane number `at`; return what the user changes in this frame, or None.
+
+    `view` is told whether the pane should show how far a radius reaches.
+    """
     choice = pane.choice
+    view.reach = False
     request = None
     imgui.set_next_item_width(-1)
     if imgui.begin_combo("##solver", choice.kind.title):
@@ -35,6 +40,8 @@ def solver_panel(rig: Rig, pane: Pane, at: int) -> UseSolver | None:
         imgui.begin_disabled(when is not None and getattr(choice.settings, when[0]) != when[1])
         changed, value = _setting(field.name, field.metadata, value)
         sliding = imgui.is_item_active()
+        if field.name == "radius" and (sliding or imgui.is_item_hovered()):
+            view.reach = True
         finished = imgui.is_item_deactivated_after_edit()
         imgui.end_disabled()
         if changed or finished:

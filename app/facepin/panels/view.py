@@ -22,15 +22,18 @@ class PaneView:
     ghost: Ghost = "none"
     """Another pose that shines through."""
 
+    reach: bool = False
+    """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
+
     def next_ghost(self, *, has_reference: bool) -> None:
         """Go on to the next ghost there is."""
         ghosts: tuple[Ghost, ...] = ("none", "neutral", "reference") if has_reference else ("none", "neutral")
         self.ghost = ghosts[(ghosts.index(self.ghost) + 1) % len(ghosts)] if self.ghost in ghosts else "none"
 
     @property
-    def key(self) -> tuple[bool, bool, Ghost]:
+    def key(self) -> tuple[bool, bool, Ghost, bool]:
         """Equal keys look the same."""
-        return self.heat, self.wireframe, self.ghost
+        return self.heat, self.wireframe, self.ghost, self.reach
 
 
 @dataclass

@@ -1,8 +1,9 @@
-"""How far the vertices of a pane moved since its drag began, for the heat map."""
+"""What is shown as colours on the face of a pane: how far it moved, how far a solver's radius reaches."""
 
 import numpy as np
 
 from facepin.core.arrays import Floats, Points
+from facepin.core.geodesic import geodesic_distances
 from facepin.core.heat import heat_scale
 from facepin.core.measures import moves
 from facepin.core.rig import Rig
@@ -19,6 +20,8 @@ class HeatGauge:
         self._origin: Points = rig.neutral
         self._measured: tuple[Points, Points] | None = None
         self._heat: Points = np.zeros(rig.vertex_count, np.float32)
+        self._reached: tuple[tuple[int, ...], float] | None = None
+        self._reach: Points = self._heat
 
     def heat(self, pane: Pane, positions: Points) -> Points:
         """Return the moves of the vertices in shares of the top of the heat scale, (n,) float32.
@@ -46,3 +49,18 @@ class HeatGauge:
             self._measured = measured
             self._heat = (moves(positions, self._origin) / self._top).astype(np.float32)
         return self._heat
+
+    def reach(self, pane: Pane) -> Points:
+        """Return how much each vertex counts with the radius of the pane's solver, 1 at a pin, (n,) float32.
+
+        Zeros without a radius or without pins; a new array only when pins or radius are others than before.
+        """
+        places = tuple(pin.vertex for pin in pane.pose.pins)
+        radius = getattr(pane.choice.settings, "radius", 0.0) / 100 * self._rig.height
+        if (places, radius) != self._reached:
+            self._reached = places, radius
+            self._reach = np.zeros(self._rig.vertex_count, np.float32)
+            if radius > 0:
+                distances = geodesic_distances(self._rig, places, radius)
+                self._reach = (1.0 - np.minimum(distances / radius, 1.0)).astype(np.float32)
+        return self._reach

@@ -50,7 +50,7 @@ class Solved:
     """Mean distance from the pins' vertices to their goals after the solve, in the rig's unit; for screen
     pins across the line of sight only.  0 without pins."""
     seconds: float
-    """Time of the solve itself."""
+    """Time of the solve itself, as on every frame of a drag: without what is prepared once for its pins."""
     notes: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -72,10 +72,11 @@ class PinSolver:
         FacepinError
             When the solver fails or gives a weight that is not finite.
         """
-        began = perf_counter()
         displacement = pin_displacement(self._rig, pins)
         try:
-            solution = self._prepare(pins)(displacement, start)
+            solve = self._prepare(pins)
+            began = perf_counter()
+            solution = solve(displacement, start)
         except np.linalg.LinAlgError as error:
             raise FacepinError(
                 f"{self.choice.kind.title} found no solution for these pins: {error}"

@@ -1,0 +1,24 @@
+import numpy as np
+from small_rigs import sheet
+
+from facepin.core.pose import Pin, Pose
+from facepin.session.heat import HeatGauge
+from facepin.session.session import Pane
+from facepin.session.solving import choose
+from facepin.solvers.transpose import TransposeSettings
+
+
+def test_the_reach_of_a_radius_falls_off_along_the_skin() -> None:
+    rig = sheet()
+    pin = Pin(40, tuple(rig.neutral[40].tolist()))
+    gauge = HeatGauge(rig)
+    pane = Pane(choose("transpose", TransposeSettings(radius=25.0)), Pose(np.zeros(4), (pin,)), np.zeros(4))
+    reach = gauge.reach(pane)
+    assert reach is gauge.reach(pane)
+    assert reach[40] == 1
+    distance = np.linalg.norm(rig.neutral - rig.neutral[40], axis=1)
+    assert (reach[distance > 0.25 * rig.height + 1e-6] == 0).all()
+    beside = np.flatnonzero(np.isclose(distance, 0.25))  # one edge away: half the radius
+    np.testing.assert_allclose(reach[beside], 0.5, atol=1e-5)
+    off = Pane(choose("transpose"), Pose(np.zeros(4), (pin,)), np.zeros(4))
+    assert not gauge.reach(off).any()

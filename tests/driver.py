@@ -105,11 +105,20 @@ def running(
     settings_folder: Path | None = None,
     pictures: Path = Path(),
     first_pose: Callable[[Rig], Pose] | None = None,
+    solve_first: bool = False,
     wait: bool = True,
 ) -> Iterator[App]:
     """Run the application on the null platform with a rig open."""
     with Window("test", size, windowless=True, scale=scale) as window:
-        start = Start([choose(solver)], rig, first_pose, settings_folder, pictures, native_dialogs=False)
+        start = Start(
+            [choose(solver)],
+            rig,
+            first_pose,
+            settings_folder,
+            pictures,
+            native_dialogs=False,
+            solve_first=solve_first,
+        )
         loop = frames(window, start)
         app = App(window, loop, next(loop))
         if wait:

@@ -9,7 +9,8 @@ from driver import running
 from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
 from facepin.core.events import PointerMoved
-from facepin.core.pose import Pin
+from facepin.core.pose import Pin, Pose
+from facepin.core.rig import Rig
 from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, UseSolver
 from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose
@@ -81,3 +82,27 @@ def test_a_pane_keeps_its_camera_and_overlays_when_others_are_closed() -> None:
         app.desk.carry_out(ClosePane(0), app.frame.viewport)
         app.desk.look(cameras[1].orbited(1, 0))
         assert seen(Command.UNDO)[0] == [cameras[1].orbited(1, 0)] * 3
+
+
+@pytest.mark.parametrize("solve", [False, True])
+def test_a_saved_pose_opens_as_it_was_saved_and_a_pins_file_is_solved(solve: bool) -> None:
+    def first(rig: Rig) -> Pose:
+        vertex = int(np.argmax(abs(rig.deltas).sum(axis=1)) // 3)
+        x, y, z = rig.neutral[vertex].astype(float).tolist()
+        return Pose(np.full(rig.shape_count, 0.1), (Pin(vertex, (x, y - 0.5, z)),))
+
+    with running(first_pose=first, solve_first=solve) as app:
+        same = bool((app.session.pose.weights == 0.1).all())
+        assert same is not solve
+        assert len(app.session.pose.pins) == 1
+        assert "*" not in app.desk.title
+
+
+def test_a_rig_opens_even_if_its_first_pose_does_not() -> None:
+    def first(rig: Rig) -> Pose:
+        raise FacepinError("pose.json: no such file")
+
+    with running(first_pose=first) as app:
+        assert not app.session.pose.weights.any()
+        assert app.desk.is_error
+        assert app.desk.message == "pose.json: no such file"

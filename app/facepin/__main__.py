@@ -93,6 +93,7 @@ def _window(options: Namespace) -> None:
         lambda rig: first_pose(rig, options.pose, options.pins),
         settings,
         user_pictures_path() / "Facepin",
+        solve_first=options.pins is not None,
         chart_writer=_write_charts,
     )
     try:

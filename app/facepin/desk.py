@@ -106,6 +106,7 @@ class Desk:
         self._asked: Command | None = None
         self._saved: Work | None = None
         self._first_pose: Callable[[Rig], Pose] | None = None
+        self._solve_first = False
         self._numbers = [0]
         """Of the panes that `cameras` and `view.panes` are for."""
         self._looks: dict[int, tuple[Camera, PaneView]] = {}
@@ -140,11 +141,23 @@ class Desk:
         """Show a message in the status line until the next one."""
         self.message, self.is_error = message, error
 
-    def open(self, path: Path, first_pose: Callable[[Rig], Pose] | None = None) -> None:
-        """Start opening the rig at `path`; `poll` puts it on the desk when it is there."""
+    def open(
+        self, path: Path, first_pose: Callable[[Rig], Pose] | None = None, *, solve: bool = False
+    ) -> None:
+        """Start opening the rig at `path`; `poll` puts it on the desk when it is there.
+
+        Parameters
+        ----------
+        path : Path
+            File or folder.
+        first_pose : callable
+            Makes the pose to begin with once the rig is there.
+        solve : bool
+            Whether the weights then follow the pins of that pose.
+        """
         if self.loading is not None:
             self.loading.cancel()
-        self._first_pose = first_pose
+        self._first_pose, self._solve_first = first_pose, solve
         self.loading = Loading(path, lambda path, progress: open_rig(path, progress=progress))
 
     def poll(self, viewport: Viewport) -> None:
@@ -291,10 +304,14 @@ class Desk:
 
     def _show(self, rig: Rig, viewport: Viewport) -> None:
         """Put an opened rig on the desk."""
-        pose = self._first_pose(rig) if self._first_pose else None
+        pose, complaint = None, ""
+        try:
+            pose = self._first_pose(rig) if self._first_pose else None
+        except FacepinError as error:
+            complaint = str(error)  # the rig is there all the same
         choices = [pane.choice for pane in self.session.panes] if self.session else self._choices
         session = Session(rig, choices, pose)
-        if pose is not None and pose.pins:
+        if pose is not None and self._solve_first:
             session.apply(Edit("Solve the pins", True, pose.pins, solve=True))
         stage = Stage(self._ctx, session)
         if self.stage is not None:
@@ -305,8 +322,8 @@ class Desk:
         self.cameras = [frame_points(stage.positions(session.active), viewport.aspect)] * count
         self.view.panes = (self.view.panes + [PaneView() for _ in range(count)])[:count]
         self._numbers, self._looks = [pane.number for pane in session.panes], {}
-        if session.message:
-            self.say(session.message, error=True)
+        if complaint := complaint or session.message:
+            self.say(complaint, error=True)
         elif rig.warnings:
             more = f" (and {len(rig.warnings) - 1} more)" if len(rig.warnings) > 1 else ""
             self.say(f"Opened with a warning: {rig.warnings[0]}{more}")

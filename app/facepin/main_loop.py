@@ -52,6 +52,8 @@ class Start:
     native_dialogs: bool = True
     chart_writer: ChartWriter | None = None
     """Writes the charts of a session into a folder."""
+    solve_first: bool = False
+    """Whether the weights follow the pins of the first pose: a pins file says only where they go."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +96,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     )
     if complaint:
         desk.say(complaint, error=True)
-    desk.open(start.rig or resource("assets", BUILTIN), start.first_pose)
+    desk.open(start.rig or resource("assets", BUILTIN), start.first_pose, solve=start.solve_first)
     viewport = Viewport(0, 0, *window.size)
     viewports: tuple[Viewport, ...] = (viewport,)
     scale: float | None = None

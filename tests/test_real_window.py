@@ -12,6 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from facepin.core.events import Stirred
+from facepin.window import Window
+
 
 @pytest.fixture(scope="module")
 def screen() -> Iterator[str]:
@@ -112,3 +115,28 @@ def _wait_for(ask: object, seconds: float = 20.0) -> str:
             return answer
         time.sleep(0.1)
     return ""
+
+
+def test_a_resized_window_and_a_typed_character_are_heard(
+    screen: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("DISPLAY", screen)
+    hand = Hand(screen)
+    with Window("stirred", (400, 300)) as window:
+
+        def heard(wanted: type) -> bool:
+            return any(isinstance(event, wanted) for event in window.poll(0.1))
+
+        (number,) = _wait_for(lambda: hand.do("search", "--name", "^stirred$")).split()
+        while window.poll(0.5):
+            pass
+        hand.do("windowsize", number, 500, 350)
+        assert _wait_for(lambda: heard(Stirred))
+        assert window.size == (500, 350)
+        while window.poll(0.5):
+            pass
+        hand.do("windowfocus", number)
+        while window.poll(0.5):
+            pass
+        hand.do("key", "underscore")  # a key without a name among the events
+        assert _wait_for(lambda: heard(Stirred))

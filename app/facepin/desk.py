@@ -314,6 +314,7 @@ class Desk:
         if pose is not None and self._solve_first:
             session.apply(Edit("Solve the pins", True, pose.pins, solve=True))
         stage = Stage(self._ctx, session)
+        is_first = self.stage is None
         if self.stage is not None:
             self.stage.release()
         self.stage, self.tool = stage, DragTool()
@@ -327,7 +328,7 @@ class Desk:
         elif rig.warnings:
             more = f" (and {len(rig.warnings) - 1} more)" if len(rig.warnings) > 1 else ""
             self.say(f"Opened with a warning: {rig.warnings[0]}{more}")
-        else:
+        elif not is_first:  # what was wrong with the start stays to be read
             self.say("")
 
     def _ask(self, command: Command, start: Path) -> None:

@@ -1,6 +1,7 @@
 """One frame after another: input, edits, panels, picture."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
@@ -10,6 +11,7 @@ from imgui_bundle import imgui
 
 from facepin import interface
 from facepin.core.camera import Viewport
+from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk import ChartWriter, Desk
@@ -28,11 +30,13 @@ from facepin.stage import Stage
 from facepin.window import Window
 
 IDLE_WAIT = 0.5
-"""Seconds between looks at the clock when nothing happens (a text cursor blinks)."""
+"""Seconds to sleep at most when nothing happens; a text cursor blinks in this rhythm."""
 BUSY_WAIT = 1 / 30
 """The same while a file is being opened or a dialog is up."""
 SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
+HOVER_DELAY = 0.2
+"""Seconds after the last event when imgui is given another look: it explains what the mouse rests on."""
 PANE_GAP = 2.0
 """Pixels between panes at 1x scale."""
 
@@ -102,6 +106,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     scale: float | None = None
     drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
+    look_again: float | None = None
 
     while not desk.closing:
         # What happened.
@@ -109,11 +114,26 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         began = perf_counter()
         busy = desk.loading is not None or desk.dialog is not None
         settling = SETTLE if events or busy else settling - 1
+        if 0 in window.size:
+            # Minimised: there is nothing to draw on, and imgui would fold its panels up.
+            if CloseRequested() in events:
+                break
+            settling, wait = SETTLE, IDLE_WAIT
+            yield Frame(desk, viewport, viewports, False, 0.0)
+            continue
+        if events:
+            look_again = began + HOVER_DELAY
+        elif settling < 0 and look_again is not None and began >= look_again:
+            settling = SETTLE - 1
+            # A text cursor goes on blinking.
+            look_again = began + IDLE_WAIT if imgui.get_io().want_text_input else None
         if settling < 0:
             # Nothing to do: time for what makes the picture better, then sleep.
             better = desk.stage is not None and not desk.stage.refined and desk.stage.refine()
             settling = SETTLE if better else -1
-            wait = IDLE_WAIT if desk.stage is None or desk.stage.refined else 0.0
+            refined = desk.stage is None or desk.stage.refined
+            rest = IDLE_WAIT if look_again is None else max(look_again - began, 0.0)
+            wait = rest if refined else 0.0
             yield Frame(desk, viewport, viewports, False, 0.0)
             continue
         wait = BUSY_WAIT if busy else 0.0
@@ -195,7 +215,10 @@ def _set_up_imgui(settings_folder: Path | None) -> None:
     io.config_windows_move_from_title_bar_only = True
     ini = str(settings_folder / "layout.ini") if settings_folder else None
     if settings_folder:
-        settings_folder.mkdir(parents=True, exist_ok=True)
+        with suppress(
+            OSError
+        ):  # imgui then keeps no layout; that preferences are not kept is said by who writes
+            settings_folder.mkdir(parents=True, exist_ok=True)
     io.set_ini_filename(ini)
 
 

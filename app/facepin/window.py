@@ -27,6 +27,7 @@ from facepin.core.events import (
     PointerPressed,
     PointerReleased,
     Scrolled,
+    Stirred,
 )
 
 _BUTTONS: dict[int, Button] = {
@@ -136,7 +137,8 @@ class Window:
     @property
     def pixel_ratio(self) -> float:
         """Framebuffer pixels per screen unit (imgui's unit): 2 on a Retina display, 1 elsewhere."""
-        return float(self.size[0] / max(glfw.get_window_size(self._handle)[0], 1))
+        pixels, units = self.size[0], glfw.get_window_size(self._handle)[0]
+        return pixels / units if pixels and units else 1.0  # a minimised window may have neither
 
     @property
     def scale(self) -> float:
@@ -204,6 +206,12 @@ class Window:
         glfw.set_key_callback(self._handle, self._on_key)
         glfw.set_drop_callback(self._handle, self._on_drop)
         glfw.set_window_close_callback(self._handle, self._on_close)
+        # Where frames are drawn only when something happens, these have to be heard too.
+        glfw.set_window_refresh_callback(self._handle, self._on_stir)
+        glfw.set_window_focus_callback(self._handle, self._on_stir)
+        glfw.set_framebuffer_size_callback(self._handle, self._on_stir)
+        glfw.set_window_content_scale_callback(self._handle, self._on_stir)
+        glfw.set_char_callback(self._handle, self._on_stir)
 
     def _modifiers(self) -> Modifiers:
         def held(*keys: int) -> bool:
@@ -249,6 +257,9 @@ class Window:
 
     def _on_drop(self, _: object, paths: list[str]) -> None:
         self._events.append(FilesDropped(tuple(Path(path) for path in paths)))
+
+    def _on_stir(self, *_: object) -> None:
+        self._events.append(Stirred())
 
     def _on_close(self, handle: Any) -> None:
         # Whether the window really closes is decided by who reads the event.

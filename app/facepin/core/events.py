@@ -71,10 +71,22 @@ class FilesDropped:
 
 
 @dataclass(frozen=True)
+class Stirred:
+    """What is shown may be another now: the window was resized or uncovered, or a character was typed."""
+
+
+@dataclass(frozen=True)
 class CloseRequested:
     """The window manager asked the window to close."""
 
 
 Event = (
-    PointerPressed | PointerMoved | PointerReleased | Scrolled | KeyPressed | FilesDropped | CloseRequested
+    PointerPressed
+    | PointerMoved
+    | PointerReleased
+    | Scrolled
+    | KeyPressed
+    | FilesDropped
+    | Stirred
+    | CloseRequested
 )

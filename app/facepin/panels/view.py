@@ -57,7 +57,7 @@ class View:
     pin_menu_opens: bool = False
     """It was asked for just now."""
     panes: list[PaneView] = field(default_factory=lambda: [PaneView()])
-    """One per pane, or more: a pane that comes back finds its own."""
+    """One per pane."""
     chart: bool = False
     """Whether the chart window is open."""
     linked: bool = True

@@ -1,6 +1,7 @@
 """The whole application, driven without a screen."""
 
 import json
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from facepin.core.events import FilesDropped, PointerMoved, PointerReleased, Scr
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import AddPane, Command, KeepPane, SetPin
+from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose
 
 
@@ -388,8 +390,51 @@ def test_overlays_are_toggled_by_keys_and_change_the_picture() -> None:
             pictures.append(app.screenshot().astype(int))
         viewport = app.frame.viewport
         inside = (slice(100, int(viewport.height)), slice(100, int(viewport.width) - 100))
-        changes = [np.abs(a[inside] - b[inside]).mean() for a, b in zip(pictures, pictures[1:], strict=False)]
+        changes = [np.abs(a[inside] - b[inside]).mean() for a, b in pairwise(pictures)]
         assert changes[0] > 1
         assert changes[1] > 1
         np.testing.assert_array_equal(pictures[0][inside], pictures[2][inside])
         np.testing.assert_array_equal(pictures[0][inside], pictures[4][inside])
+
+
+def test_a_pose_that_nobody_saved_is_kept_when_the_program_ends_or_another_rig_is_opened(
+    tmp_path: Path, shared: Path
+) -> None:
+    with running(settings_folder=tmp_path) as app:
+        x, y = app.pixel_of(chin(app))
+        app.drag((x, y), (x, y + 30))
+        first = app.session.pose.weights
+        app.desk.open(shared / "good/control.glb")
+        app.until(lambda: app.session.rig.name == "control")
+        assert "is kept in" in app.desk.message
+        app.session.apply(Edit("Set", True, weights=np.array([0.25, 0, 0])))
+        app.desk.carry_out(Command.QUIT, app.frame.viewport)
+        with pytest.raises(StopIteration):
+            app.step(frames=2)
+    kept = {path.name: json.loads(path.read_text()) for path in (tmp_path / "unsaved").iterdir()}
+    assert sorted(kept) == ["ada-001.json", "control-001.json"]
+    np.testing.assert_allclose(list(kept["ada-001.json"]["weights"].values()), first)
+    assert list(kept["control-001.json"]["weights"].values()) == [0.25, 0, 0]
+    with running(settings_folder=tmp_path) as app:
+        assert "control-001.json" in app.desk.message
+        app.step(PointerMoved(9, 9), frames=3)
+    with running(settings_folder=tmp_path) as app:
+        assert "control-001.json" not in app.desk.message
+
+
+def test_a_fault_in_a_frame_keeps_the_pose(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(ZeroDivisionError), running(settings_folder=tmp_path) as app:
+        app.session.apply(Edit("Set", True, weights=np.full(app.session.rig.shape_count, 0.125)))
+        monkeypatch.setattr("facepin.interface.panels", lambda *_: 1 // 0)
+        app.step(PointerMoved(5, 5))
+    (path,) = (tmp_path / "unsaved").iterdir()
+    assert set(json.loads(path.read_text())["weights"].values()) == {0.125}
+
+
+def test_home_resets_all_panes() -> None:
+    with running(size=(1600, 900)) as app:
+        app.desk.carry_out(AddPane(choose("tikhonov")), app.frame.viewports[0])
+        app.step(PointerMoved(5, 5), frames=3)
+        app.session.apply(Edit("Drag pin", True, (Pin(100, (0.0, 0.0, 9.0)),), solve=True))
+        app.key("home")
+        assert not any(pane.pose.weights.any() for pane in app.session.panes)

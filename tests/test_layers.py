@@ -15,6 +15,7 @@ LAYERS: list[set[str]] = [
     {"main_loop", "figures"},
     {"interface", "routing"},
     {"desk"},
+    {"papers"},
     {"stage", "options"},
     {"window", "gpu", "panels"},
     {"session", "files"},

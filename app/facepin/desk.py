@@ -7,16 +7,13 @@ from pathlib import Path
 import moderngl
 import numpy as np
 
-from facepin.core.arrays import Floats
 from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.files import open_rig
-from facepin.files.atomic import atomic_write
 from facepin.files.formats import write_model
 from facepin.files.pose_file import read_pose, write_pose
-from facepin.gpu.picture import draw_picture, png_bytes
 from facepin.options import BUILTIN
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.requests import (
@@ -32,18 +29,17 @@ from facepin.panels.requests import (
     UseSolver,
 )
 from facepin.panels.view import PaneView, View
+from facepin.papers import free_name, keep_pose, save_picture
 from facepin.resources import resource
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
 from facepin.session.loading import Loading
+from facepin.session.reference import random_reference
 from facepin.session.session import Session, Work
 from facepin.session.solving import SolverChoice
 from facepin.stage import Stage
 
 ChartWriter = Callable[[Session, Path], None]
-
-RANDOM_SHAPES = 4
-"""Active shapes of a random reference pose."""
 
 _POSES = ("Poses", "*.json *.csv")
 _DIALOGS: dict[Command, tuple[Kind, tuple[str, ...]]] = {
@@ -67,6 +63,7 @@ class Desk:
         *,
         native_dialogs: bool,
         pictures: Path,
+        unsaved: Path | None,
         chart_writer: ChartWriter | None,
     ) -> None:
         """Start with nothing open.
@@ -83,6 +80,8 @@ class Desk:
             Use the platform's file dialogs.
         pictures : Path
             Folder that saved pictures go to.
+        unsaved : Path
+            Folder where poses are kept that nobody saved; None keeps nothing.
         chart_writer : callable
             Writes the charts of a session into a folder.
         """
@@ -102,6 +101,7 @@ class Desk:
         self._choices = choices
         self._native = native_dialogs
         self._pictures = pictures
+        self._unsaved = unsaved
         self._chart_writer = chart_writer
         self._asked: Command | None = None
         self._saved: Work | None = None
@@ -214,6 +214,15 @@ class Desk:
             stuck = edit.label == "Place pin" and not self.session.rig.rows_at(held).any()
             self.say("No shape of this rig moves the point under the new pin" if stuck else "")
 
+    def keep_unsaved(self) -> Path | None:
+        """Write the pose to a file of its own if nobody saved it; return where."""
+        session = self.session
+        if session is None or self._unsaved is None or session.committed is self._saved:
+            return None
+        pose = session.committed.panes[session.active].pose
+        self._saved = session.committed
+        return keep_pose(session.rig, pose, self._unsaved)
+
     def release(self) -> None:
         """Give everything back."""
         if self.loading is not None:
@@ -241,7 +250,7 @@ class Desk:
             case Command.REFERENCE_FROM_POSE:
                 session.set_reference(pose.weights)
             case Command.REFERENCE_RANDOM:
-                session.set_reference(_random_weights(rig))
+                session.set_reference(random_reference(rig, np.random.default_rng()))
             case Command.HEAT:
                 shown = self.view.panes[session.active]
                 shown.heat = not shown.heat
@@ -266,7 +275,7 @@ class Desk:
                 label = session.redo_label
                 self.say(f"Redone: {label}" if session.redo() else "Nothing to redo")
             case Command.RESET_POSE:
-                self.apply(Edit("Reset the pose", True, weights=np.zeros(rig.shape_count)))
+                session.reset()
             case Command.DELETE_PINS:
                 kept = tuple(pin for pin in pose.pins if pin.vertex not in self.tool.selected)
                 if len(kept) < len(pose.pins):
@@ -276,7 +285,9 @@ class Desk:
             case Command.FRAME:
                 self.look(frame_points(stage.positions(session.active), viewport.aspect, self.camera))
             case Command.SCREENSHOT:
-                self._save_picture(stage, viewport)
+                shown = self.view.panes[session.active]
+                path = save_picture(stage, shown, self.camera, viewport, self._pictures)
+                self.say(f"Saved {path}")
             case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT | Command.REFERENCE_FROM_FILE:
                 suffix = ".glb" if request is Command.EXPORT else ".json"
                 folder = Path.home() if self.opened is None else self.opened.parent
@@ -314,6 +325,7 @@ class Desk:
         if pose is not None and self._solve_first:
             session.apply(Edit("Solve the pins", True, pose.pins, solve=True))
         stage = Stage(self._ctx, session)
+        kept = self.keep_unsaved()
         is_first = self.stage is None
         if self.stage is not None:
             self.stage.release()
@@ -325,6 +337,8 @@ class Desk:
         self._numbers, self._looks = [pane.number for pane in session.panes], {}
         if complaint := complaint or session.message:
             self.say(complaint, error=True)
+        elif kept is not None:
+            self.say(f"Opened {rig.name}; the pose that was not saved is kept in {kept}")
         elif rig.warnings:
             more = f" (and {len(rig.warnings) - 1} more)" if len(rig.warnings) > 1 else ""
             self.say(f"Opened with a warning: {rig.warnings[0]}{more}")
@@ -365,33 +379,13 @@ class Desk:
         self.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
         self.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
 
-    def _save_picture(self, stage: Stage, viewport: Viewport) -> None:
-        """Write what the active pane shows, without pins and panels, under a name that is free."""
-        size = (max(round(viewport.width), 1), max(round(viewport.height), 1))
-        while not stage.refined:
-            stage.refine()
-        active = stage.session.active
-        overlays = stage.overlays(active, self.view.panes[active])
-        image = draw_picture(stage.mesh(active), self.camera, size, overlays=overlays)
-        path = self._free_name(stage.session.rig.name, ".png")
-        atomic_write(path, png_bytes(image))
-        self.say(f"Saved {path}")
-
     def _save_chart(self, session: Session) -> None:
         """Write the charts of all panes: pictures, drawings and a table."""
         if self._chart_writer is None:
             raise FacepinError("charts cannot be written here")
-        folder = self._free_name(f"{session.rig.name}-chart", "")
+        folder = free_name(self._pictures, f"{session.rig.name}-chart", "")
         self._chart_writer(session, folder)
         self.say(f"Saved {folder}")
-
-    def _free_name(self, name: str, suffix: str) -> Path:
-        """Return a path in the folder of pictures that is not taken; the folder is made."""
-        self._pictures.mkdir(parents=True, exist_ok=True)
-        number = 1
-        while (path := self._pictures / f"{name}-{number:03}{suffix}").exists():
-            number += 1
-        return path
 
     def sync(self) -> None:
         """Give every pane its camera and view, which it keeps when others are closed and finds after undo."""
@@ -419,16 +413,8 @@ class _Reporting:
         pass
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        if isinstance(error, FacepinError | OSError):
+        # moderngl.Error: a graphics card without memory must not take the pose with it.
+        if isinstance(error, FacepinError | OSError | moderngl.Error):
             self._desk.say(str(error), error=True)
             return True
         return False
-
-
-def _random_weights(rig: Rig) -> Floats:
-    """Return a pose of four shapes with weights in 0.4 .. 1, as the study draws them."""
-    random = np.random.default_rng()
-    weights = np.zeros(rig.shape_count)
-    shapes = random.choice(rig.shape_count, min(RANDOM_SHAPES, rig.shape_count), replace=False)
-    weights[shapes] = random.uniform(0.4, 1.0, len(shapes))
-    return weights

@@ -82,24 +82,46 @@ def run(window: Window, start: Start) -> None:
 
 
 def frames(window: Window, start: Start) -> Iterator[Frame]:
-    """Run the program frame by frame; ends when the user quits."""
-    preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
-    preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
-    view = View(freedom=preferences.freedom, quality=preferences.quality, ui_scale=preferences.ui_scale)
-    _set_up_imgui(start.settings_folder)
-    software = _is_software(window.ctx)
+    """Run the program frame by frame; ends when the user quits.
+
+    However it ends, a pose that nobody saved is kept, and the next start says where.
+    """
+    view = View()
     rough, smooth = Canvas(window.ctx, 0), Canvas(window.ctx, 4)
-    router = Router()
     desk = Desk(
         window.ctx,
         view,
         start.choices,
         native_dialogs=start.native_dialogs and has_native_dialogs(),
         pictures=start.pictures,
+        unsaved=start.settings_folder / "unsaved" if start.settings_folder else None,
         chart_writer=start.chart_writer,
     )
+    try:
+        yield from _loop(window, start, desk, rough, smooth)
+    finally:
+        kept = desk.keep_unsaved()
+        if kept is not None and start.settings_folder is not None:
+            file = start.settings_folder / "preferences.json"
+            write_preferences(file, replace(read_preferences(file)[0], kept=str(kept)))
+        desk.release()
+        rough.release()
+        smooth.release()
+
+
+def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canvas) -> Iterator[Frame]:
+    """Draw frame after frame until the user quits."""
+    view = desk.view
+    preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
+    preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
+    view.freedom, view.quality, view.ui_scale = preferences.freedom, preferences.quality, preferences.ui_scale
+    _set_up_imgui(start.settings_folder)
+    software = _is_software(window.ctx)
+    router = Router()
     if complaint:
         desk.say(complaint, error=True)
+    elif preferences.kept and Path(preferences.kept).exists():
+        desk.say(f"The pose that was not saved last time is kept: drop {preferences.kept} on the window")
     desk.open(start.rig or resource("assets", BUILTIN), start.first_pose, solve=start.solve_first)
     viewport = Viewport(0, 0, *window.size)
     viewports: tuple[Viewport, ...] = (viewport,)
@@ -193,15 +215,11 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
                 desk.say(complaint, error=True)
         yield Frame(desk, viewport, viewports, True, seconds)
 
-    desk.release()
-    rough.release()
-    smooth.release()
-
 
 def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
     """Return what to remember for the next run."""
     view = desk.view
-    found = replace(preferences, freedom=view.freedom, quality=view.quality, ui_scale=view.ui_scale)
+    found = replace(preferences, freedom=view.freedom, quality=view.quality, ui_scale=view.ui_scale, kept="")
     if desk.opened is not None:
         found = found.opened(desk.opened)
     if desk.session is not None:

@@ -27,6 +27,8 @@ class Preferences:
     quality: Quality = "auto"
     ui_scale: float = 1.0
     solver: str = "transpose"
+    kept: str = ""
+    """Where the pose is that the last run ended with and nobody saved."""
 
     def opened(self, path: Path) -> "Preferences":
         """Return the preferences with a rig put first among the recent ones."""
@@ -40,6 +42,7 @@ _CHECKS: dict[str, Callable[[Any], bool]] = {
     "quality": lambda value: value in ("auto", "always", "off"),
     "ui_scale": lambda value: isinstance(value, int | float) and 0.5 <= value <= 4,
     "solver": lambda value: isinstance(value, str),
+    "kept": lambda value: isinstance(value, str),
 }
 
 

@@ -6,7 +6,7 @@ from itertools import count
 
 import numpy as np
 
-from facepin.core.arrays import Floats
+from facepin.core.arrays import Floats, frozen
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
@@ -122,9 +122,9 @@ class Session:
         A solver that fails leaves the last good poses in place and says so in `message`.
         """
         before = self._history.current
+        self.message = ""
         try:
             work = replace(before, panes=self._edited(before.panes, edit))
-            self.message = ""
         except FacepinError as error:
             self.message = str(error)
             work = self.work
@@ -171,18 +171,28 @@ class Session:
         self._show("Keep one pane", replace(before, panes=(before.panes[at],)), final=True)
         self._active = 0
 
+    def reset(self) -> None:
+        """Put all weights of all panes to zero; the goals of the pins follow the active pane's vertices."""
+        before = self._history.current
+        zero = snapped(self.rig, before.panes[self.active].pose.with_weights(np.zeros(self.rig.shape_count)))
+        panes = tuple(pane.by_hand(zero) for pane in before.panes)
+        self._show("Reset the pose", replace(before, panes=panes), final=True)
+
     def set_reference(self, weights: Floats | None) -> None:
         """Measure the panes against weights (k,) from now on; None forgets them."""
         label = "Forget the reference" if weights is None else "Set the reference"
-        self._show(label, replace(self._history.current, reference=weights), final=True)
+        kept = None if weights is None else frozen(weights, np.float64)
+        self._show(label, replace(self._history.current, reference=kept), final=True)
 
     def cancel(self) -> None:
         """Drop the gesture in progress; the poses are exactly those before it."""
         self._preview = None
 
     def undo(self) -> bool:
-        """Take the last undo step back; False when there is none."""
-        self._preview = None
+        """Take the gesture in progress back, or else the last undo step; False when there is neither."""
+        if self._preview is not None:
+            self._preview = None
+            return True
         return self._history.undo()
 
     def redo(self) -> bool:
@@ -220,16 +230,35 @@ class Session:
             poses[self.active] = pose
             return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
         if edit.solve:
-            return tuple(
-                self._solve(at, replace(pane, began=pane.pose), pose)
-                for at, (pane, pose) in enumerate(zip(panes, poses, strict=True))
-            )
+            return self._dragged(panes, poses)
         # A new pin holds what is there; but what a removed one made must not fall back with the next drag.
         placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in panes[0].pose.pins}
         return tuple(
             replace(pane, pose=pose, began=None) if placed else pane.by_hand(pose)
             for pane, pose in zip(panes, poses, strict=True)
         )
+
+    def _dragged(self, panes: tuple[Pane, ...], poses: Sequence[Pose]) -> tuple[Pane, ...]:
+        """Return the panes solved for new pins; where one of several solvers fails, its weights stay.
+
+        Raises
+        ------
+        FacepinError
+            When all of them fail.
+        """
+        dragged: list[Pane] = []
+        failures: list[FacepinError] = []
+        for at, (pane, pose) in enumerate(zip(panes, poses, strict=True)):
+            try:
+                dragged.append(self._solve(at, replace(pane, began=pane.pose), pose))
+            except FacepinError as error:
+                failures.append(error)
+                kept = self.panes[at].pose if len(self.panes) == len(panes) else pane.pose
+                dragged.append(replace(pane, pose=kept.with_pins(pose.pins), began=pane.pose, solved=None))
+        if len(failures) == len(panes):
+            raise failures[0]
+        self.message = str(failures[0]) if failures else ""
+        return tuple(dragged)
 
     def _with_solver(self, at: int, pane: Pane, choice: SolverChoice) -> Pane:
         """Return a pane with its last drag, if it was the last step, solved in another way."""

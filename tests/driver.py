@@ -86,9 +86,7 @@ class App:
 
     def screenshot(self) -> np.ndarray:
         """The window as it is shown, (h, w, 3) uint8."""
-        width, height = self.window.size
-        data = self.window.ctx.screen.read(components=3, alignment=1)
-        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
+        return self.window.read()
 
     def save(self, path: Path) -> None:
         """Write the window as a picture, to look at."""
@@ -107,9 +105,10 @@ def running(
     first_pose: Callable[[Rig], Pose] | None = None,
     solve_first: bool = False,
     wait: bool = True,
+    windowless: bool = True,
 ) -> Iterator[App]:
-    """Run the application on the null platform with a rig open."""
-    with Window("test", size, windowless=True, scale=scale) as window:
+    """Run the application with a rig open, on the null platform unless told otherwise."""
+    with Window("test", size, windowless=windowless, scale=scale) as window:
         start = Start(
             [choose(solver)],
             rig,

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from driver import running
 from facepin.core.events import Stirred
 from facepin.window import Window
 
@@ -140,3 +141,27 @@ def test_a_resized_window_and_a_typed_character_are_heard(
             pass
         hand.do("key", "underscore")  # a key without a name among the events
         assert _wait_for(lambda: heard(Stirred))
+
+
+def test_a_resized_window_is_filled(screen: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DISPLAY", screen)
+
+    def lit(picture: np.ndarray, rows: slice, columns: slice) -> bool:
+        return bool((picture[rows, columns].max(axis=2) > 8).mean() > 0.99)
+
+    with running(size=(700, 500), windowless=False) as app:
+        for size in ((1500, 900), (500, 400), (900, 1000)):
+            app.window.resize(size)
+            app.until(lambda size=size: app.window.size == size)
+            app.until(lambda: app.frame.drawn)
+            app.until(lambda: not app.frame.drawn)
+            picture = app.screenshot()
+            assert picture.shape == (size[1], size[0], 3)
+            viewport = app.frame.viewport
+            right, bottom = int(viewport.width) - 4, int(viewport.y + viewport.height)
+            # Wall behind the head at the top, bust and wall at the bottom: nothing is left black.
+            assert lit(picture, slice(25, 60), slice(0, right))
+            assert lit(picture, slice(bottom - 40, bottom - 2), slice(0, right))
+            # The face is in the middle of what is free: skin is warm, the wall is not.
+            middle = picture[int(viewport.y + viewport.height / 2), right // 2].astype(int)
+            assert middle[0] > middle[2] + 20

@@ -192,10 +192,9 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
                     fine=canvas is smooth,
                 )
                 drawn = wanted
-            canvas.resolve(window.ctx.screen, viewport)
+            window.show(canvas.overlay, viewport)
         else:
-            window.ctx.screen.use()
-            window.ctx.screen.clear(*PANEL)
+            window.clear(PANEL)
         window.end_frame()
         seconds = perf_counter() - began
 

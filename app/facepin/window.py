@@ -14,7 +14,10 @@ from typing import Any, Self
 from imgui_bundle import imgui, implot  # isort: skip
 import glfw
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
 
+from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.events import (
     Button,
@@ -85,7 +88,6 @@ class Window:
             When there is no OpenGL 3.3 on it.
         """
         self._events: list[Event] = []
-        self._waiting: list[Callable[[], None]] = []
         if windowless:
             glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
         with _Complaints() as complaints:
@@ -97,6 +99,7 @@ class Window:
                 raise FacepinError(f"no window with OpenGL 3.3 could be opened ({complaints})")
         glfw.make_context_current(self._handle)
         self.ctx = moderngl.create_context(context=_Loader())  # type: ignore[arg-type]  # its stub wants a dict
+        self._gl = _Screen()
         glfw.swap_interval(0 if windowless else 1)
         self._forced_scale = scale
         # Where the last event left the mouse.  Asking in a callback would tell where it is by now: after a
@@ -146,6 +149,10 @@ class Window:
         if self._forced_scale is not None:
             return self._forced_scale
         return float(max(glfw.get_window_content_scale(self._handle)[0], 0.5))
+
+    def resize(self, size: tuple[int, int]) -> None:
+        """Ask for another size, in screen units."""
+        glfw.set_window_size(self._handle, *size)
 
     def set_title(self, title: str) -> None:
         """Say `title` in the title bar."""
@@ -198,6 +205,23 @@ class Window:
         imgui.render()
         imgui.backends.opengl3_render_draw_data(imgui.get_draw_data())
         glfw.swap_buffers(self._handle)
+
+    def clear(self, colour: tuple[float, float, float, float]) -> None:
+        """Fill the window."""
+        self._gl.use_screen(*self.size)
+        self.ctx.screen.clear(*colour, viewport=(0, 0, *self.size))
+
+    def show(self, picture: moderngl.Framebuffer, part: Viewport) -> None:
+        """Copy a part of a picture as large as the window to its place; pixels are means of samples."""
+        left, right = round(part.x), round(part.x + part.width)
+        bottom = picture.height - round(part.y + part.height)
+        top = picture.height - round(part.y)
+        self._gl.copy_to_screen(picture.glo, (left, bottom, right, top))
+
+    def read(self) -> NDArray[np.uint8]:
+        """Return what the window shows, (h, w, 3) uint8, first row on top."""
+        width, height = self.size
+        return self._gl.read_screen(width, height)
 
     def _listen(self) -> None:
         glfw.set_cursor_pos_callback(self._handle, self._on_cursor)
@@ -281,6 +305,55 @@ class _Loader:
 
     def release(self) -> None:
         """Leave the context alone: the window owns it."""
+
+
+class _Screen:
+    """The window's own framebuffer.  moderngl takes it to be as large for ever as it was at the start."""
+
+    def __init__(self) -> None:
+        integer, unsigned, pointer = ctypes.c_int, ctypes.c_uint, ctypes.c_void_p
+        self._bind = _function("glBindFramebuffer", unsigned, unsigned)
+        self._blit = _function("glBlitFramebuffer", *[integer] * 8, unsigned, unsigned)
+        self._disable = _function("glDisable", unsigned)
+        self._viewport = _function("glViewport", *[integer] * 4)
+        self._pack = _function("glPixelStorei", unsigned, integer)
+        self._read = _function("glReadPixels", *[integer] * 4, unsigned, unsigned, pointer)
+
+    def use_screen(self, width: int, height: int) -> None:
+        """Draw into the whole window from now on."""
+        self._bind(_FRAMEBUFFER, 0)
+        self._disable(_SCISSOR_TEST)
+        self._viewport(0, 0, width, height)
+
+    def copy_to_screen(self, source: int, box: tuple[int, int, int, int]) -> None:
+        """Copy the colours in a box (left, bottom, right, top) of a framebuffer to the same place."""
+        self._bind(_READ_FRAMEBUFFER, source)
+        self._bind(_DRAW_FRAMEBUFFER, 0)
+        self._disable(_SCISSOR_TEST)
+        self._blit(*box, *box, _COLOR_BUFFER_BIT, _NEAREST)
+        self._bind(_FRAMEBUFFER, 0)
+
+    def read_screen(self, width: int, height: int) -> NDArray[np.uint8]:
+        """Return the colours of the window, (h, w, 3) uint8, first row on top."""
+        pixels = np.zeros((height, width, 3), np.uint8)
+        self._bind(_FRAMEBUFFER, 0)
+        self._pack(_PACK_ALIGNMENT, 1)
+        self._read(0, 0, width, height, _RGB, _UNSIGNED_BYTE, pixels.ctypes.data)
+        return pixels[::-1]
+
+
+_FRAMEBUFFER, _READ_FRAMEBUFFER, _DRAW_FRAMEBUFFER = 0x8D40, 0x8CA8, 0x8CA9
+_COLOR_BUFFER_BIT, _NEAREST, _SCISSOR_TEST = 0x4000, 0x2600, 0x0C11
+_PACK_ALIGNMENT, _RGB, _UNSIGNED_BYTE = 0x0D05, 0x1907, 0x1401
+
+
+def _function(name: str, *arguments: type) -> Callable[..., None]:
+    """Return a function of OpenGL by name."""
+    address = ctypes.cast(glfw.get_proc_address(name), ctypes.c_void_p).value
+    if not address:
+        raise FacepinError(f"OpenGL on this machine has no {name}; 3.3 is needed")
+    found: Callable[..., None] = ctypes.CFUNCTYPE(None, *arguments)(address)
+    return found
 
 
 class _Complaints:

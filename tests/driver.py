@@ -124,5 +124,7 @@ def running(
             app.until(lambda: app.desk.loading is None)
             app.until(lambda: app.desk.stage is None or app.desk.stage.refined)
             app.step(frames=4)
-        yield app
-        loop.close()
+        try:
+            yield app
+        finally:
+            loop.close()

@@ -1,6 +1,6 @@
 """Projection, rays and the moves of the camera against each other and against plain geometry."""
 
-from math import pi, radians
+from math import pi, radians, tan
 
 import numpy as np
 import pytest
@@ -147,3 +147,20 @@ def test_framing_a_part_keeps_the_scene_reachable() -> None:
     part = frame_points(cloud()[:3], 1.0, whole)
     assert part.radius == whole.radius
     assert part.zoomed(1e-3).distance > whole.distance
+
+
+def test_a_narrow_picture_shows_more_above_and_below_instead_of_cutting_the_sides_off() -> None:
+    camera = Camera(distance=10.0, least_aspect=0.8)
+    free = Camera(distance=10.0)
+    half = 10.0 * tan(camera.fov_y / 2)
+    side = np.array([[0.8 * half, 0.0, 0.0]])  # what is seen at the right border of a picture of that aspect
+    for width, seen in ((1600, 1600 / 2 + 0.8 * 500), (800, 800), (400, 400), (200, 200)):
+        viewport = Viewport(0, 0, width, 1000)
+        x, y, _ = camera.project(side, viewport)[0]
+        assert (x, y) == pytest.approx((seen, 500))
+        clip = camera.view_projection(viewport) @ [*side[0], 1]
+        assert viewport.width * (clip[0] / clip[3] + 1) / 2 == pytest.approx(seen)
+        back = camera.plane_point((x, y), (0, 0, 0), viewport)
+        np.testing.assert_allclose(back, side[0], atol=1e-9)
+    wide = Viewport(0, 0, 1600, 1000)
+    np.testing.assert_array_equal(camera.projection(wide.aspect), free.projection(wide.aspect))

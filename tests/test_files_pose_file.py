@@ -1,6 +1,7 @@
 """Poses and pins as files, and poses that come to another rig."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from facepin.files.pins_file import read_pins, write_pins
 from facepin.files.pose_file import read_pose, write_pose
 from facepin.files.shape_spelling import match_shapes, spelling
 from sample_files import POSITIONS
+from small_rigs import sheet
 
 PINS = (
     Pin(2, (0.1, -3.0, 8.25)),
@@ -207,3 +209,10 @@ def test_a_file_without_pins_is_not_a_pins_file(tmp_path):
     (tmp_path / "p.json").write_text("{}")
     with pytest.raises(FacepinError, match="pins is missing"):
         read_pins(tmp_path / "p.json", RIG)
+
+
+def test_two_pins_on_one_vertex_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "pins.json"
+    path.write_text('{"pins": [{"vertex": 3, "move": [0, 1, 0]}, {"vertex": 3, "move": [0, -1, 0]}]}')
+    with pytest.raises(FacepinError, match=r"pins\[1\].*vertex 3 is held by.*pins\[0\]"):
+        read_pins(path, sheet())

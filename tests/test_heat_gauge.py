@@ -1,11 +1,11 @@
 import numpy as np
-from small_rigs import sheet
 
 from facepin.core.pose import Pin, Pose
 from facepin.session.heat import HeatGauge
 from facepin.session.session import Pane
 from facepin.session.solving import choose
 from facepin.solvers.transpose import TransposeSettings
+from small_rigs import sheet
 
 
 def test_the_reach_of_a_radius_falls_off_along_the_skin() -> None:

@@ -42,7 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"facepin: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:
-        sys.stderr.close()  # whoever read the output has gone; there is no one to tell
+        # Whoever read the output has gone; what is still to be flushed at exit must go somewhere.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except KeyboardInterrupt:
         return 130
     return 0
@@ -60,6 +61,7 @@ def _window_parser() -> ArgumentParser:
     parser.add_argument(
         "rig", nargs="?", type=Path, metavar="RIG", help="face to open (default: the built-in one)"
     )
+    parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
     parser.add_argument("--solver", metavar="KEY", help="solver to begin with (default: the last one used)")
     parser.add_argument("--compare", metavar="KEY,KEY", help="up to four solvers side by side")
     parser.add_argument("--pins", type=Path, metavar="FILE", help="pins file to begin with")
@@ -76,11 +78,15 @@ def _window(options: Namespace) -> None:
     from platformdirs import user_config_path, user_pictures_path
 
     from facepin.files.preferences import read_preferences
-    from facepin.main_loop import Start, run
     from facepin.session.session import MOST_PANES
     from facepin.solvers import SOLVERS
-    from facepin.window import NoDisplay, Window
 
+    try:
+        from facepin.main_loop import Start, run
+        from facepin.window import NoDisplay, Window
+    except ImportError as error:  # a system without X11 has no library to link the window to
+        _demonstrate(f"no window is possible here ({error})")
+        return
     settings = user_config_path("facepin", appauthor=False)
     remembered = read_preferences(settings / "preferences.json")[0].solver
     keys = options.compare or options.solver or (remembered if remembered in SOLVERS else "transpose")
@@ -93,19 +99,25 @@ def _window(options: Namespace) -> None:
         lambda rig: first_pose(rig, options.pose, options.pins),
         settings,
         user_pictures_path() / "Facepin",
+        neutral=options.neutral,
         solve_first=options.pins is not None,
         chart_writer=_write_charts,
     )
     try:
         window = Window("Facepin", (1280, 720))
     except NoDisplay as error:
-        from facepin.figures.demonstration import demonstrate
-
-        folder = demonstrate(Path("facepin-demonstration"))
-        print(f"facepin: {error}; the built-in demonstration was run instead: see {folder.resolve()}")
+        _demonstrate(str(error))
         return
     with window:
         run(window, start)
+
+
+def _demonstrate(reason: str) -> None:
+    """Do without a window: say why, and run the demonstration."""
+    from facepin.figures.demonstration import demonstrate
+
+    folder = demonstrate(Path("facepin-demonstration"))
+    print(f"facepin: {reason}; the built-in demonstration was run instead: see {folder.resolve()}")
 
 
 def _write_charts(session: "Session", folder: Path) -> None:

@@ -25,6 +25,7 @@ from facepin.panels.requests import (
     KeepPane,
     OpenPath,
     Request,
+    SelectPane,
     SetPin,
     UseSolver,
 )
@@ -142,7 +143,12 @@ class Desk:
         self.message, self.is_error = message, error
 
     def open(
-        self, path: Path, first_pose: Callable[[Rig], Pose] | None = None, *, solve: bool = False
+        self,
+        path: Path,
+        first_pose: Callable[[Rig], Pose] | None = None,
+        *,
+        solve: bool = False,
+        neutral: str | None = None,
     ) -> None:
         """Start opening the rig at `path`; `poll` puts it on the desk when it is there.
 
@@ -154,11 +160,15 @@ class Desk:
             Makes the pose to begin with once the rig is there.
         solve : bool
             Whether the weights then follow the pins of that pose.
+        neutral : str
+            For a folder: the file with the neutral.
         """
         if self.loading is not None:
             self.loading.cancel()
         self._first_pose, self._solve_first = first_pose, solve
-        self.loading = Loading(path, lambda path, progress: open_rig(path, progress=progress))
+        self.loading = Loading(
+            path, lambda path, progress: open_rig(path, neutral=neutral, progress=progress)
+        )
 
     def poll(self, viewport: Viewport) -> None:
         """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""
@@ -236,6 +246,8 @@ class Desk:
         """Carry out a request that needs an open rig."""
         session = stage.session
         pose, rig = session.pose, session.rig
+        if not isinstance(request, SelectPane):
+            self.say("")
         match request:
             case UseSolver(pane, choice, final):
                 session.choose_solver(pane, choice, final=final)
@@ -243,6 +255,8 @@ class Desk:
             case AddPane(choice):
                 session.add_pane(choice)
                 self._say_failure(session)
+            case SelectPane(pane):
+                session.active = pane
             case ClosePane(pane):
                 session.close_pane(pane)
             case KeepPane(pane):
@@ -332,8 +346,11 @@ class Desk:
         self.stage, self.tool = stage, DragTool()
         self._saved = session.committed
         count = len(session.panes)
-        self.cameras = [frame_points(stage.positions(session.active), viewport.aspect)] * count
-        self.view.panes = (self.view.panes + [PaneView() for _ in range(count)])[:count]
+        width, height, _ = np.ptp(rig.neutral, axis=0).tolist()
+        camera = Camera(radius=0.0, least_aspect=min(1.15 * width / max(height, 1e-9), 2.0))
+        framed = frame_points(stage.positions(session.active), viewport.aspect, camera)
+        self.cameras = [framed] * count
+        self.view.panes = [PaneView() for _ in range(count)]  # what was shown over another face is over
         self._numbers, self._looks = [pane.number for pane in session.panes], {}
         if complaint := complaint or session.message:
             self.say(complaint, error=True)

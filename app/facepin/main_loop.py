@@ -56,6 +56,8 @@ class Start:
     native_dialogs: bool = True
     chart_writer: ChartWriter | None = None
     """Writes the charts of a session into a folder."""
+    neutral: str | None = None
+    """For a folder of OBJ files: the one with the neutral."""
     solve_first: bool = False
     """Whether the weights follow the pins of the first pose: a pins file says only where they go."""
 
@@ -122,7 +124,8 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         desk.say(complaint, error=True)
     elif preferences.kept and Path(preferences.kept).exists():
         desk.say(f"The pose that was not saved last time is kept: drop {preferences.kept} on the window")
-    desk.open(start.rig or resource("assets", BUILTIN), start.first_pose, solve=start.solve_first)
+    rig = start.rig or resource("assets", BUILTIN)
+    desk.open(rig, start.first_pose, solve=start.solve_first, neutral=start.neutral)
     viewport = Viewport(0, 0, *window.size)
     viewports: tuple[Viewport, ...] = (viewport,)
     scale: float | None = None
@@ -160,6 +163,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
             continue
         wait = BUSY_WAIT if busy else 0.0
         if window.scale * view.ui_scale / window.pixel_ratio != scale:
+            reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
             scale = window.scale * view.ui_scale / window.pixel_ratio
             apply_theme(scale)
         desk.poll(viewport)
@@ -169,8 +173,9 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         # The hand in the picture; then the panels, so that they show this frame's weights.
         asked = router.take(events, desk, viewports, window.scale)
         asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds)
-        reset_layout = Command.RESET_LAYOUT in asked
+        reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
+        reset_layout = False
         asked += interface.panels(desk, scale)
         if desk.stage is not None:
             moved = desk.stage.update()

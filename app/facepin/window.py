@@ -43,18 +43,13 @@ _KEYS = {
     glfw.KEY_DELETE: "delete",
     glfw.KEY_BACKSPACE: "backspace",
     glfw.KEY_HOME: "home",
-    glfw.KEY_TAB: "tab",
-    glfw.KEY_ENTER: "enter",
-    glfw.KEY_SPACE: "space",
-    glfw.KEY_LEFT: "left",
-    glfw.KEY_RIGHT: "right",
-    glfw.KEY_UP: "up",
-    glfw.KEY_DOWN: "down",
     **{glfw.KEY_F1 + i: f"f{i + 1}" for i in range(12)},
     **{glfw.KEY_KP_0 + i: f"numpad {i}" for i in range(10)},
     **{glfw.KEY_0 + i: str(i) for i in range(10)},
     **{glfw.KEY_A + i: chr(ord("a") + i) for i in range(26)},
 }
+_REPEATED = ("z", "y")
+"""Keys that go on while they are held: undo and redo."""
 
 
 class NoDisplay(FacepinError):
@@ -270,14 +265,14 @@ class Window:
         if action == glfw.RELEASE:
             return
         name = _KEYS.get(key)
+        if action == glfw.REPEAT and name not in _REPEATED:
+            return  # a picture is not saved thirty times a second because F12 was held
         if glfw.KEY_A <= key <= glfw.KEY_Z:
             # What the keyboard's own layout writes there: Ctrl+Z is where the user's Z is.
             written = glfw.get_key_name(key, scancode)
             name = written.lower() if written and written.isascii() and written.isalpha() else name
         if name is not None:
             self._events.append(KeyPressed(name, self._modifiers()))
-        elif glfw.get_key_name(key, scancode) == "?":
-            self._events.append(KeyPressed("?", self._modifiers()))
 
     def _on_drop(self, _: object, paths: list[str]) -> None:
         self._events.append(FilesDropped(tuple(Path(path) for path in paths)))

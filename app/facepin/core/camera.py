@@ -54,6 +54,9 @@ class Camera:
     """Angle above the horizon, −π/2..π/2."""
     fov_y: float = radians(30)
     """Full vertical opening angle."""
+    least_aspect: float = 0.0
+    """Width over height that is seen at least: a narrower picture shows more above and below, instead of
+    cutting the sides off."""
     radius: float = 1.0
     """Radius of what is being looked at: sets how far away drawing stops and how close the eye may come."""
 
@@ -91,7 +94,7 @@ class Camera:
 
     def projection(self, aspect: float) -> Floats:
         """Camera to clip space of OpenGL (z −1..1), (4, 4) float64, acting on columns."""
-        f = 1 / tan(self.fov_y / 2)
+        f = 1 / self._slope(aspect)
         near, far = self.near, self.far
         return np.array(
             [
@@ -108,7 +111,11 @@ class Camera:
 
     def pixel_size(self, viewport: Viewport) -> float:
         """Length in space that one pixel covers at the target's depth."""
-        return 2 * self.distance * tan(self.fov_y / 2) / max(viewport.height, 1)
+        return 2 * self.distance * self._slope(viewport.aspect) / max(viewport.height, 1)
+
+    def _slope(self, aspect: float) -> float:
+        """Half the height of what is seen at depth 1."""
+        return tan(self.fov_y / 2) * max(self.least_aspect / aspect, 1.0)
 
     def project(self, points: ArrayLike, viewport: Viewport) -> Floats:
         """Pixel x, pixel y and depth of points.
@@ -128,7 +135,7 @@ class Camera:
         """
         local = (np.asarray(points, np.float64).reshape(-1, 3) - self.eye) @ np.stack(self.axes, axis=1)
         depth = -local[:, 2]
-        scale = viewport.height / (2 * tan(self.fov_y / 2)) / np.where(depth > 0, depth, np.nan)
+        scale = viewport.height / (2 * self._slope(viewport.aspect)) / np.where(depth > 0, depth, np.nan)
         x = viewport.x + viewport.width / 2 + local[:, 0] * scale
         y = viewport.y + viewport.height / 2 - local[:, 1] * scale
         return np.stack([x, y, depth], axis=1)
@@ -221,8 +228,9 @@ def frame_points(
         points = points[:1] + scene * np.concatenate([axes, -axes])
     x, y, z = axes @ points.T
     # The eye is the apex of the narrowest pyramid round the points: each side is one linear bound on it.
-    slope_y = tan(camera.fov_y / 2) * (1 - 2 * margin)
-    slope_x = slope_y * (aspect if isfinite(aspect) and aspect > 0 else 1.0)
+    aspect = aspect if isfinite(aspect) and aspect > 0 else 1.0
+    slope_y = camera._slope(aspect) * (1 - 2 * margin)
+    slope_x = slope_y * aspect
     right, left = np.max(x + slope_x * z), np.max(-x + slope_x * z)
     top, bottom = np.max(y + slope_y * z), np.max(-y + slope_y * z)
     depth = (z.min() + z.max()) / 2

@@ -20,8 +20,9 @@ def read_npz(path: Path, options: ReadOptions) -> Rig:
     """Read a rig from `neutral` (n, 3), `faces` (m, 3 or 4; -1 fills up) and `deltas` (k, n, 3).
 
     Optional: `names` (k); `part` (n) with `part_names`, or `region` with `region_names`: the part of every
-    vertex, a face belongs to that of its first corner; `part_colours` and `part_mats` (roughness first),
-    a row per part; `colors` or `colours` (n, 3); `weights` (k).  Colours are sRGB, 0..1 or bytes.  What does not fit is left out with a warning.
+    vertex, a face belongs to that of its first corner; `part_colours` and `part_mats` (roughness first), a
+    row per part; `colors` or `colours` (n, 3); `weights` (k).  Colours are sRGB, 0..1 or bytes.  What does
+    not fit is left out with a warning.
 
     Raises
     ------

@@ -47,7 +47,16 @@ def write_pins(path: Path, pins: tuple[Pin, ...]) -> None:
 
 def parse_pins(document: JsonObject, rig: Rig) -> tuple[Pin, ...]:
     """Return the pins under the key `pins`, none where it is missing."""
-    return tuple(_pin(entry, rig) for entry in document.children("pins"))
+    entries = document.children("pins")
+    pins = tuple(_pin(entry, rig) for entry in entries)
+    first: dict[int, JsonObject] = {}
+    for pin, entry in zip(pins, entries, strict=True):
+        other = first.setdefault(pin.vertex, entry)
+        if other is not entry:
+            raise FacepinError(
+                f"{entry.where}: vertex {pin.vertex} is held by {other.where} already, allowed: one pin each"
+            )
+    return pins
 
 
 def pins_as_json(pins: tuple[Pin, ...]) -> list[dict[str, Any]]:

@@ -45,6 +45,10 @@ class FileDialog:
         self._kind = kind
         self._title = title
         self._typed = str(start)
+        self._suffix = start.suffix
+        self._remark = "Type a path and press Enter."
+        self._replaces: Path | None = None
+        """A file that the next Enter replaces."""
         self._fresh = True
         self._native: native.open_file | native.save_file | native.select_folder | None = None
         if use_native:
@@ -87,17 +91,29 @@ class FileDialog:
         entered, self._typed = imgui.input_text(
             "##typed", self._typed, imgui.InputTextFlags_.enter_returns_true
         )
-        imgui.text_disabled("Type a path and press Enter.")
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled(self._remark)
         width = 6 * imgui.get_font_size()
         gap = imgui.get_style().item_spacing.x
         imgui.same_line(imgui.get_window_width() - 2 * width - gap - imgui.get_style().window_padding.x)
         if imgui.button("Cancel", imgui.ImVec2(width, 0)) or imgui.is_key_pressed(imgui.Key.escape):
             self._finish(None)
         imgui.same_line()
-        word = "Save" if self._kind == "save file" else "Open"
+        word = "Open" if self._kind != "save file" else "Replace" if self._replaces else "Save"
         if (imgui.button(word, imgui.ImVec2(width, 0)) or entered) and self._typed.strip():
-            self._finish(_typed_path(self._typed))
+            self._take(_typed_path(self._typed))
         imgui.end()
+
+    def _take(self, path: Path) -> None:
+        """Take the typed path for the answer, unless it would replace a file and nobody said yes to that."""
+        if self._kind == "save file" and not path.suffix:
+            path = path.with_suffix(self._suffix)
+        if self._kind == "save file" and path.exists() and self._replaces != path:
+            self._replaces = path
+            self._remark = f"{path.name} exists: press Enter again to replace it."
+            self._fresh = True
+            return
+        self._finish(path)
 
     def _finish(self, path: Path | None) -> None:
         self.path = path

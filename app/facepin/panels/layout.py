@@ -31,7 +31,9 @@ def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
     # Its background would be painted under the panels' own, which cover it: without a GPU that is felt.
     imgui.push_style_color(imgui.Col_.window_bg, imgui.ImVec4(0, 0, 0, 0))
     imgui.dock_space_over_viewport(
-        space, imgui.get_main_viewport(), imgui.DockNodeFlags_.passthru_central_node
+        space,
+        imgui.get_main_viewport(),
+        imgui.DockNodeFlags_.passthru_central_node | imgui.DockNodeFlags_.no_docking_over_central_node,
     )
     imgui.pop_style_color()
     node = imgui.internal.dock_builder_get_central_node(space)

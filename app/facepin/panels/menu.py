@@ -6,7 +6,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.pose import Freedom, Pin
-from facepin.panels.overlays import overlay_items
+from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, OpenPath, Request, SetPin
 from facepin.panels.view import View
 from facepin.session.session import MOST_PANES, Session
@@ -38,6 +38,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     if not imgui.begin_main_menu_bar():
         return None
     if imgui.begin_menu("File"):
+        close_on_escape()
         asked = _item(Command.OPEN_FILE) or _item(Command.OPEN_FOLDER) or asked
         if imgui.begin_menu("Open recent", bool(recent)):
             for path in recent:
@@ -53,6 +54,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         asked = _item(Command.QUIT) or asked
         imgui.end_menu()
     if imgui.begin_menu("Edit"):
+        close_on_escape()
         asked = _item(Command.UNDO, undo is not None, undo) or asked
         asked = _item(Command.REDO, redo is not None, redo) or asked
         imgui.separator()
@@ -67,9 +69,11 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
             imgui.end_menu()
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
+        close_on_escape()
         asked = _compare(view, session) or asked
         imgui.end_menu()
     if imgui.begin_menu("View"):
+        close_on_escape()
         for command in (Command.FRAME, Command.FRONT, Command.LEFT, Command.RIGHT, Command.THREE_QUARTER):
             asked = _item(command) or asked
         imgui.separator()
@@ -118,6 +122,7 @@ def _compare(view: View, session: Session) -> Request | None:
 def pin_menu(pin: Pin) -> SetPin | None:
     """Draw the inside of the menu of a pin; return what the user changes, or None."""
     request = None
+    close_on_escape()
     imgui.text_disabled(f"Pin on vertex {pin.vertex}")
     imgui.separator()
     for freedom, title in FREEDOMS.items():

@@ -1,4 +1,4 @@
-"""The menu items of what a pane shows over its face."""
+"""Menu items of what a pane shows over its face, and how a menu is left."""
 
 from imgui_bundle import imgui
 
@@ -25,3 +25,9 @@ def overlay_items(view: PaneView, *, has_reference: bool) -> None:
         shortcut = Command.GHOST.shortcuts[0] if ghost == "none" else None
         if imgui.menu_item_simple(title, shortcut, selected=view.ghost == ghost, enabled=there):
             view.ghost = ghost
+
+
+def close_on_escape() -> None:
+    """Close the menu that is being drawn when Esc is pressed."""
+    if imgui.is_key_pressed(imgui.Key.escape):
+        imgui.close_current_popup()

@@ -5,8 +5,8 @@ import dataclasses
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
-from facepin.panels.overlays import overlay_items
-from facepin.panels.requests import ClosePane, KeepPane, Request, UseSolver
+from facepin.panels.overlays import close_on_escape, overlay_items
+from facepin.panels.requests import ClosePane, KeepPane, Request, SelectPane, UseSolver
 from facepin.panels.theme import TEXT, WARNING, Colour, packed
 from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal
@@ -91,8 +91,10 @@ def pane_title(
         imgui.same_line()
         imgui.text_disabled(short)
     _figures(pane, appraisal)
+    if not active and imgui.is_window_hovered() and imgui.is_mouse_clicked(0):
+        asked.append(SelectPane(at))
     if imgui.begin_popup("pane"):
-        asked = _menu(at, pane, view, has_reference=has_reference)
+        asked += _menu(at, pane, view, has_reference=has_reference)
         imgui.end_popup()
     imgui.end()
     return asked
@@ -135,6 +137,7 @@ def _figures(pane: Pane, appraisal: Appraisal) -> None:
 
 def _menu(at: int, pane: Pane, view: PaneView, *, has_reference: bool) -> list[Request]:
     asked: list[Request] = []
+    close_on_escape()
     for key, kind in SOLVERS.items():
         if imgui.menu_item_simple(kind.title, selected=kind is pane.choice.kind):
             asked.append(UseSolver(at, choose(key, keep_limits=pane.choice.keep_limits)))

@@ -98,6 +98,13 @@ class AddPane:
 
 
 @dataclass(frozen=True)
+class SelectPane:
+    """Show and edit the numbers of a pane."""
+
+    pane: int
+
+
+@dataclass(frozen=True)
 class ClosePane:
     """Close a pane."""
 
@@ -127,4 +134,6 @@ class CancelLoading:
     """Give up opening a file."""
 
 
-Request = Command | OpenPath | UseSolver | AddPane | ClosePane | KeepPane | SetPin | CancelLoading
+Request = (
+    Command | OpenPath | UseSolver | AddPane | SelectPane | ClosePane | KeepPane | SetPin | CancelLoading
+)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
+from facepin.core.measures import out_of_range
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import UseSolver
@@ -15,6 +16,9 @@ from facepin.panels.view import PaneView
 from facepin.session.session import Pane
 from facepin.session.solving import Solved, choose
 from facepin.solvers import SOLVERS
+
+HUGE = 10.0
+"""A weight beyond this is worth a warning: the face is off the screen."""
 
 
 def solver_panel(rig: Rig, pane: Pane, at: int, view: PaneView) -> UseSolver | None:
@@ -93,13 +97,15 @@ def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:
     if solved is None:
         _sentence("Drag a point of the face: the solver's figures appear here.")
         return
-    low, high = rig.limits.T
-    outside = int(np.count_nonzero((pose.weights < low - 1e-6) | (pose.weights > high + 1e-6)))
+    outside = out_of_range(pose.weights, rig.limits)
+    largest = float(np.abs(pose.weights).max(initial=0.0))
     figures = {
         "solve time": f"{solved.seconds * 1e3:.2f} ms",
         "pin error": f"{solved.pin_error:.4g} ({100 * solved.pin_error / rig.height:.2f} % of face)",
         "out of range": f"{outside} weight{'' if outside == 1 else 's'}",
     }
+    if largest > HUGE:
+        figures["largest weight"] = f"{largest:,.0f}"
     figures |= {name: f"{value:.4g}" for name, value in solved.notes.items()}
     if imgui.begin_table("figures", 2, imgui.TableFlags_.sizing_stretch_prop):
         for name, value in figures.items():
@@ -107,7 +113,7 @@ def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:
             imgui.table_next_column()
             imgui.text_disabled(name)
             imgui.table_next_column()
-            if name == "out of range" and outside:
+            if (name == "out of range" and outside) or name == "largest weight":
                 imgui.text_colored(imgui.ImVec4(*WARNING), value)
             else:
                 imgui.text(value)

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.core.rig import Rig
 from facepin.panels.requests import CancelLoading
-from facepin.panels.theme import ACCENT, TEXT, TEXT_DIM, WARNING, packed
+from facepin.panels.theme import ACCENT, TEXT, WARNING, packed
 
 
 def status_line(
@@ -43,9 +43,11 @@ def status_line(
             imgui.same_line(0, 2 * imgui.get_font_size())
             imgui.text_colored(imgui.ImVec4(*(WARNING if is_error else TEXT)), message)
             imgui.set_item_tooltip(message)
-        right = imgui.get_window_width() - imgui.calc_text_size(timing).x - imgui.get_style().window_padding.x
-        imgui.same_line(max(right, imgui.get_cursor_pos_x()))
-        imgui.text_disabled(timing)
+        padding = imgui.get_style().window_padding.x
+        right = imgui.get_window_width() - imgui.calc_text_size(timing).x - padding
+        if right > imgui.get_item_rect_max().x - imgui.get_window_pos().x + padding:  # else there is no room
+            imgui.same_line(right)
+            imgui.text_disabled(timing)
     imgui.end()
 
 
@@ -83,4 +85,4 @@ def hint(text: str, viewport: Viewport, pixel_ratio: float) -> None:
         packed((0, 0, 0, 0.35)),
         size.y,
     )
-    draw.add_text(imgui.ImVec2(x, y), packed(TEXT_DIM if size.x == 0 else TEXT, 0.85), text)
+    draw.add_text(imgui.ImVec2(x, y), packed(TEXT, 0.85), text)

@@ -121,7 +121,7 @@ def pane_colours(keys: Sequence[str]) -> list[Colour]:
     colours: list[Colour] = []
     for at, key in enumerate(keys):
         code = INKS[key].colour if key in INKS else "#ffffff"
-        paler = 0.15 + 0.3 * list(keys[:at]).count(key)  # the chart colours are made for white paper
+        paler = 0.3 + 0.25 * list(keys[:at]).count(key)  # the chart colours are made for white paper
         r, g, b = (int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
         colours.append((r + (1 - r) * paler, g + (1 - g) * paler, b + (1 - b) * paler, 1.0))
     return colours

@@ -196,7 +196,7 @@ def _bars(
             continue
         left, right = sorted((zero, x(value)))
         above, below = top + number * step, top + (number + 1) * step
-        fill = packed(colour, 0.4 if len(values) == 1 else 0.75)
+        fill = packed(colour, 0.4 if len(values) == 1 else 0.55)
         draw.add_rect_filled(imgui.ImVec2(left, above), imgui.ImVec2(right, below), fill, 2 * scale)
         end = x(value)
         draw.add_rect_filled(

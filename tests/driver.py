@@ -110,7 +110,7 @@ def running(
     """Run the application with a rig open, on the null platform unless told otherwise."""
     with Window("test", size, windowless=windowless, scale=scale) as window:
         start = Start(
-            [choose(solver)],
+            [choose(key) for key in solver.split(",")],
             rig,
             first_pose,
             settings_folder,

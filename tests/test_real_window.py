@@ -165,3 +165,39 @@ def test_a_resized_window_is_filled(screen: str, monkeypatch: pytest.MonkeyPatch
             # The face is in the middle of what is free: skin is warm, the wall is not.
             middle = picture[int(viewport.y + viewport.height / 2), right // 2].astype(int)
             assert middle[0] > middle[2] + 20
+
+
+def test_four_panes_follow_one_drag_in_a_real_window(screen: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DISPLAY", screen)
+    hand = Hand(screen)
+    solvers = ("transpose", "sparse", "tikhonov", "hybrid")
+    with running(size=(1600, 900), windowless=False, solver=",".join(solvers)) as app:
+        number = _wait_for(lambda: hand.do("search", "--name", "^ada - Facepin$")).split()[0]
+        app.until(lambda: len(app.frame.viewports) == 4)
+        place = hand.do("getwindowgeometry", "--shell", number).splitlines()
+        geometry = dict(line.split("=") for line in place)
+        left, top = int(geometry["X"]), int(geometry["Y"])
+        before = app.session.work
+        viewport = app.frame.viewports[1]
+        jaw = app.session.rig.shape_names.index("jawOpen")
+        move = app.session.rig.deltas[:, [jaw]].toarray().reshape(-1, 3)
+        chin = int(np.argmin(np.where(app.session.rig.neutral[:, 2] > 6, move[:, 1], 0)))
+        x, y, _ = app.desk.cameras[1].project(app.session.rig.neutral[chin][None], viewport)[0]
+        hand.do("mousemove", left + round(x), top + round(y))
+        app.until(lambda: app.frame.drawn)
+        hand.do("mousedown", 1)
+        app.until(lambda: app.desk.tool.holding)
+        for _ in range(10):
+            hand.do("mousemove_relative", "--", 0, 2)
+            app.step()
+        hand.do("mouseup", 1)
+        app.until(lambda: not app.desk.tool.holding)
+        panes = app.session.panes
+        assert [pane.choice.kind.key for pane in panes] == list(solvers)
+        assert app.session.active == 1
+        assert len({pane.pose.pins for pane in panes}) == 1
+        for pane in panes:
+            assert pane.pose.weights[jaw] > 0.02
+        hand.do("windowfocus", number)
+        hand.do("key", "ctrl+z")
+        app.until(lambda: app.session.work is before)

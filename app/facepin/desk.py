@@ -24,6 +24,7 @@ from facepin.panels.requests import (
     Command,
     KeepPane,
     OpenPath,
+    RandomReference,
     Request,
     SelectPane,
     SetPin,
@@ -263,8 +264,8 @@ class Desk:
                 session.keep_pane(pane)
             case Command.REFERENCE_FROM_POSE:
                 session.set_reference(pose.weights)
-            case Command.REFERENCE_RANDOM:
-                session.set_reference(random_reference(rig, np.random.default_rng()))
+            case RandomReference(shapes):
+                session.set_reference(random_reference(rig, shapes, np.random.default_rng()))
             case Command.HEAT:
                 shown = self.view.panes[session.active]
                 shown.heat = not shown.heat

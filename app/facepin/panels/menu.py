@@ -7,7 +7,16 @@ from imgui_bundle import imgui
 
 from facepin.core.pose import Freedom, Pin
 from facepin.panels.overlays import close_on_escape, overlay_items
-from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, OpenPath, Request, SetPin
+from facepin.panels.requests import (
+    AddPane,
+    ClosePane,
+    Command,
+    KeepPane,
+    OpenPath,
+    RandomReference,
+    Request,
+    SetPin,
+)
 from facepin.panels.view import View
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
@@ -17,6 +26,9 @@ FREEDOMS: dict[Freedom, str] = {
     "space": "Hold in space (x, y and z)",
     "screen": "Hold on screen (depth free)",
 }
+
+RANDOM_SHAPES = (1, 2, 4, 8, 12)
+"""Sizes of random reference poses on offer."""
 
 
 def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Request | None:
@@ -112,8 +124,13 @@ def _compare(view: View, session: Session) -> Request | None:
     if imgui.menu_item_simple("One camera for all panes", selected=view.linked, enabled=several):
         view.linked = not view.linked
     imgui.separator()
-    for command in (Command.REFERENCE_FROM_POSE, Command.REFERENCE_FROM_FILE, Command.REFERENCE_RANDOM):
+    for command in (Command.REFERENCE_FROM_POSE, Command.REFERENCE_FROM_FILE):
         asked = _item(command) or asked
+    if imgui.begin_menu("Random reference"):
+        for shapes in RANDOM_SHAPES:
+            if imgui.menu_item_simple(f"of {shapes} shape{'s' if shapes > 1 else ''}"):
+                asked = RandomReference(shapes)
+        imgui.end_menu()
     asked = _item(Command.FORGET_REFERENCE, session.work.reference is not None) or asked
     imgui.separator()
     return _item(Command.CHART) or asked

@@ -37,7 +37,6 @@ class Command(Enum):
     RESET_LAYOUT = "Reset the panel layout", ()
     REFERENCE_FROM_POSE = "Take this pose as the reference", ()
     REFERENCE_FROM_FILE = "Reference from a file…", ()
-    REFERENCE_RANDOM = "Random reference", ()
     CHART = "Chart of weights and errors", ("F4",)
     SAVE_CHART = "Save the chart", ()
     FORGET_REFERENCE = "Forget the reference", ()
@@ -98,6 +97,13 @@ class AddPane:
 
 
 @dataclass(frozen=True)
+class RandomReference:
+    """Measure the panes against a random pose."""
+
+    shapes: int
+
+
+@dataclass(frozen=True)
 class SelectPane:
     """Show and edit the numbers of a pane."""
 
@@ -135,5 +141,14 @@ class CancelLoading:
 
 
 Request = (
-    Command | OpenPath | UseSolver | AddPane | SelectPane | ClosePane | KeepPane | SetPin | CancelLoading
+    Command
+    | OpenPath
+    | UseSolver
+    | AddPane
+    | SelectPane
+    | ClosePane
+    | KeepPane
+    | RandomReference
+    | SetPin
+    | CancelLoading
 )

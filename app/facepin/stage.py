@@ -22,7 +22,7 @@ from facepin.panels.view import Ghost, PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
 from facepin.session.drag import DragTool
 from facepin.session.heat import HeatGauge
-from facepin.session.session import Session
+from facepin.session.session import Pane, Session, Work
 
 
 @dataclass(eq=False)
@@ -35,6 +35,8 @@ class _Shown:
     gauge: HeatGauge
     weights: Floats | None = None
     positions: Points | None = None
+    appraised: tuple[Pane, Work, Appraisal] | None = None
+    """The last appraisal, and what it was of."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +76,7 @@ class Stage:
         return self._scene.refined
 
     def refine(self) -> bool:
-        """Do some of the work that makes pictures better, a few milliseconds; return whether they look new."""
+        """Do some of the work that makes pictures better, some milliseconds; return whether they look new."""
         return self._scene.refine()
 
     def update(self) -> bool:
@@ -105,8 +107,11 @@ class Stage:
 
     def appraise(self, pane: int) -> Appraisal:
         """Measure a pane's pose as it is shown."""
-        work = self.session.work
-        return self._appraiser.appraise(work.panes[pane], self.positions(pane), work.reference)
+        work, shown = self.session.work, self._shown[pane]
+        if shown.appraised is None or shown.appraised[:2] != (work.panes[pane], work):
+            found = self._appraiser.appraise(work.panes[pane], self.positions(pane), work.reference)
+            shown.appraised = work.panes[pane], work, found
+        return shown.appraised[2]
 
     def mesh(self, pane: int) -> PaneMesh:
         """The mesh of a pane, for a picture of it."""

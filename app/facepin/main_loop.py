@@ -198,6 +198,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
                 )
                 drawn = wanted
             window.show(canvas.overlay, viewport)
+            window.fill_beside(PANEL, viewport)
         else:
             window.clear(PANEL)
         window.end_frame()

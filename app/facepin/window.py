@@ -203,8 +203,16 @@ class Window:
 
     def clear(self, colour: tuple[float, float, float, float]) -> None:
         """Fill the window."""
-        self._gl.use_screen(*self.size)
-        self.ctx.screen.clear(*colour, viewport=(0, 0, *self.size))
+        self._gl.fill(colour, (0, 0, *self.size))
+
+    def fill_beside(self, colour: tuple[float, float, float, float], part: Viewport) -> None:
+        """Fill what is left and right of a part of the window, from its top to its bottom."""
+        width, height = self.size
+        bottom, tall = height - round(part.y + part.height), round(part.height)
+        left, right = round(part.x), round(part.x + part.width)
+        for x, wide in ((0, left), (right, width - right)):
+            if wide > 0:
+                self._gl.fill(colour, (x, bottom, wide, tall))
 
     def show(self, picture: moderngl.Framebuffer, part: Viewport) -> None:
         """Copy a part of a picture as large as the window to its place; pixels are means of samples."""
@@ -310,15 +318,21 @@ class _Screen:
         self._bind = _function("glBindFramebuffer", unsigned, unsigned)
         self._blit = _function("glBlitFramebuffer", *[integer] * 8, unsigned, unsigned)
         self._disable = _function("glDisable", unsigned)
-        self._viewport = _function("glViewport", *[integer] * 4)
+        self._enable = _function("glEnable", unsigned)
+        self._scissor = _function("glScissor", *[integer] * 4)
+        self._clear_colour = _function("glClearColor", *[ctypes.c_float] * 4)
+        self._clear = _function("glClear", unsigned)
         self._pack = _function("glPixelStorei", unsigned, integer)
         self._read = _function("glReadPixels", *[integer] * 4, unsigned, unsigned, pointer)
 
-    def use_screen(self, width: int, height: int) -> None:
-        """Draw into the whole window from now on."""
+    def fill(self, colour: tuple[float, float, float, float], box: tuple[int, int, int, int]) -> None:
+        """Fill a box (left, bottom, width, height) of the window."""
         self._bind(_FRAMEBUFFER, 0)
+        self._enable(_SCISSOR_TEST)
+        self._scissor(*box)
+        self._clear_colour(*colour)
+        self._clear(_COLOR_BUFFER_BIT)
         self._disable(_SCISSOR_TEST)
-        self._viewport(0, 0, width, height)
 
     def copy_to_screen(self, source: int, box: tuple[int, int, int, int]) -> None:
         """Copy the colours in a box (left, bottom, right, top) of a framebuffer to the same place."""

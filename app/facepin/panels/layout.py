@@ -45,6 +45,22 @@ def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
     )
 
 
+def without_background(name: str) -> None:
+    """Leave out the background of the next window, `name`, where it is docked beside the picture.
+
+    The main loop has filled that part of the frame already.  A GPU would not care; where a processor draws,
+    imgui's blended background takes longer than all it writes on it.
+    """
+    window = imgui.internal.find_window_by_name(name)
+    if window is not None and window.dock_node is not None:
+        space = imgui.get_main_viewport()
+        beside = (
+            window.pos.x <= space.pos.x + 1 or window.pos.x + window.size.x >= space.pos.x + space.size.x - 1
+        )
+        if beside:
+            imgui.set_next_window_bg_alpha(0.0)
+
+
 def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
     """Cut a viewport into `count` equal panes, in rows and columns that leave a face as large as possible.
 

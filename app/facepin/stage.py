@@ -17,7 +17,8 @@ from facepin.gpu.framing import frame
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
 from facepin.gpu.materials import material
 from facepin.gpu.pane import Overlays, draw_pane
-from facepin.gpu.scene import PaneMesh, Scene
+from facepin.gpu.scene import PaneMesh, Part, Scene
+from facepin.gpu.still import StillLayer
 from facepin.panels.view import Ghost, PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
 from facepin.session.drag import DragTool
@@ -56,6 +57,7 @@ class Stage:
         self.seconds = 0.0
         """Time of the last deformation with normals and upload, all panes."""
         self._scene = Scene(ctx, session.rig)
+        self._still = StillLayer(self._scene)
         self._markers = MarkerLayer(ctx)
         shown = [
             session.rig.triangles[part.triangles.start : part.triangles.stop]
@@ -166,11 +168,18 @@ class Stage:
         fine : bool
             Slower where a processor does the drawing.
         """
-        self._scene.background.draw(canvas, sights)
+        if fine or canvas.samples:
+            self._still.forget()
+            self._scene.background.draw(canvas, sights)
+            part: Part = "all"
+        else:
+            faces = [None if view.heat else self.mesh(at) for at, view in enumerate(overlays[: len(sights)])]
+            self._still.draw(canvas, sights, faces)
+            part = "moving"
         for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
             framing = frame(camera, viewport, canvas.size[1])
             over = self.overlays(at, overlays[at])
-            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, scale=scale)
+            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, part=part, scale=scale)
             markers = _markers(pane.pose, self.positions(at), tool)
             self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 
@@ -181,6 +190,7 @@ class Stage:
         for shell in self._shells.values():
             shell.mesh.release()
         self._markers.release()
+        self._still.release()
         self._scene.release()
 
 

@@ -7,7 +7,7 @@ from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing
 from facepin.gpu.ghost import GhostLayer
 from facepin.gpu.heat import HeatLayer
-from facepin.gpu.scene import PaneMesh
+from facepin.gpu.scene import PaneMesh, Part
 from facepin.gpu.wires import WireLayer
 
 
@@ -32,6 +32,7 @@ def draw_pane(
     overlays: Overlays = BARE,
     *,
     fine: bool,
+    part: Part = "all",
     scale: float = 1.0,
 ) -> None:
     """Draw a face and what is shown over it into a canvas with a background.
@@ -48,13 +49,16 @@ def draw_pane(
         What is not wanted costs nothing.
     fine : bool
         See `PaneMesh.draw`.
+    part : Part
+        See `PaneMesh.draw_framed`; a heat map is always drawn as a whole.
     scale : float
         Pixels per point: 2 on a HiDPI screen.
     """
     if overlays.heat is None:
-        mesh.draw_framed(canvas, framing, fine=fine)
+        mesh.draw_framed(canvas, framing, fine=fine, part=part)
     else:
         heat = mesh.kept.get(lambda: HeatLayer(mesh), HeatLayer)
+        mesh.restore()
         heat.upload(overlays.heat)
         heat.draw(canvas, framing)
     if (ghost := overlays.ghost) is not None:

@@ -1,5 +1,8 @@
 """A rig on the graphics card, and the panes that show it in different poses."""
 
+from functools import cached_property
+from typing import Literal
+
 import moderngl
 import numpy as np
 
@@ -12,11 +15,14 @@ from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.kept import Kept
 from facepin.gpu.materials import cull_hidden, material_runs, vertex_albedo
+from facepin.gpu.motion import Motion
 from facepin.gpu.openness import Openness
 from facepin.gpu.programs import load_program
 
 GLOSSY = 0.3
 """Roughness below which a highlight is too small to be computed at vertices."""
+
+Part = Literal["all", "moving", "still"]
 
 
 class Scene:
@@ -26,6 +32,8 @@ class Scene:
         self.ctx = ctx
         self.rig = rig
         order = draw_order(rig)
+        self.triangles = order.triangles
+        """(t, 3) int32, those of the rig in the order of `indices`."""
         self.runs = material_runs(rig, order.runs)
         self.indices = ctx.buffer(order.triangles)
         self._albedo_values = vertex_albedo(rig)
@@ -80,13 +88,16 @@ class PaneMesh:
         self.kept = Kept()
         """What overlays need of this pane."""
         self._uploaded: tuple[Points, Points] | None = None
-        content = [
-            (self.positions, "3f", "position"),
-            (self.normals, "3f", "normal"),
-            (scene.albedo, "4f2", "albedo"),
-        ]
-        self._fine = scene.ctx.vertex_array(scene.fine_program, content, scene.indices)
-        self._fast = scene.ctx.vertex_array(scene.fast_program, content, scene.indices)
+        self._there: Points | None = None
+        """Positions on the card: those that were taken over, or these but for what `motion` has settled."""
+        self._arrays = _Arrays(self, scene.indices)
+        self._sorted: tuple[moderngl.Buffer, _Arrays] | None = None
+        """The triangles as `motion` sorts them."""
+
+    @cached_property
+    def motion(self) -> Motion:
+        """What moves from picture to picture; see `StillLayer`."""
+        return Motion(self.scene.rig, self.scene.triangles, self.scene.runs)
 
     def upload(self, positions: Points, normals: Points) -> bool:
         """Take over a pose; do nothing when these very arrays are there already.
@@ -104,10 +115,40 @@ class PaneMesh:
         sent = self._uploaded
         if sent is not None and sent[0] is positions and sent[1] is normals:
             return False
-        self.positions.write(np.ascontiguousarray(positions, np.float32))
+        self._send(positions)
         self.normals.write(np.ascontiguousarray(normals, np.float32))
         self._uploaded = positions, normals
         return True
+
+    def follow(self, framing: Framing) -> bool:
+        """Sort the triangles of the pose that was taken over into moving and still ones, as seen here.
+
+        Returns
+        -------
+        bool
+            Whether other triangles than before are still: they have to be drawn anew.
+        """
+        assert self._uploaded is not None, "a pose comes first"
+        positions, _ = self._uploaded
+        depths = positions @ -framing.to_view[2, :3] - framing.to_view[2, 3]
+        anew = self.motion.follow(positions, framing.ray_of_pixel[1] * max(float(depths.min()), 0.0))
+        if anew and self.motion.still:
+            if self._sorted is None:
+                indices = self.scene.ctx.buffer(reserve=self.scene.indices.size, dynamic=True)
+                self._sorted = indices, _Arrays(self, indices)
+            self._sorted[0].write(np.ascontiguousarray(self.motion.triangles))
+        self._send(self.motion.settled(positions))
+        return anew
+
+    def restore(self) -> None:
+        """Send the pose exactly as it was taken over, if `follow` has settled what is still."""
+        if self._uploaded is not None:
+            self._send(self._uploaded[0])
+
+    def _send(self, positions: Points) -> None:
+        if positions is not self._there:
+            self.positions.write(np.ascontiguousarray(positions, np.float32))
+            self._there = positions
 
     def draw(self, canvas: Canvas, viewport: Viewport, camera: Camera, *, fine: bool = True) -> None:
         """Draw the face into a rectangle of a canvas.
@@ -129,9 +170,17 @@ class PaneMesh:
         framing = frame(camera, viewport, canvas.size[1])
         self.draw_framed(canvas, framing, fine=fine)
 
-    def draw_framed(self, canvas: Canvas, framing: Framing, *, fine: bool) -> None:
-        """Draw like `draw`, for a framing that may be a tile of a larger picture."""
+    def draw_framed(self, canvas: Canvas, framing: Framing, *, fine: bool, part: Part = "all") -> None:
+        """Draw like `draw`, for a framing that may be a tile of a larger picture.
+
+        Parameters
+        ----------
+        part : Part
+            "moving" for the rest of what `StillLayer.draw` has drawn.
+        """
         ctx, scene = self.scene.ctx, self.scene
+        if part == "all":
+            self.restore()
         framing.use(canvas.framebuffer)
         for program in (scene.fine_program, scene.fast_program):
             program["to_view"] = column_major(framing.to_view)
@@ -139,9 +188,13 @@ class PaneMesh:
             program["sky"] = tuple(framing.to_view[:3, 1])
         scene.fine_program["ray_of_pixel"] = framing.ray_of_pixel
         ctx.depth_func = "<"
-        for run in scene.runs:
+        runs, arrays = scene.runs, self._arrays
+        if part != "all" and self.motion.still and self._sorted is not None:
+            runs = self.motion.moving if part == "moving" else self.motion.still
+            _, arrays = self._sorted
+        for run in runs:
             fast = run.roughness >= GLOSSY and not fine
-            program, mesh = (scene.fast_program, self._fast) if fast else (scene.fine_program, self._fine)
+            program, mesh = (scene.fast_program, arrays.fast) if fast else (scene.fine_program, arrays.fine)
             program["tint"] = run.tint
             program["roughness"] = run.roughness
             # At a vertex it is not known which side is seen, so of sheets each side is drawn by itself.
@@ -153,5 +206,28 @@ class PaneMesh:
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        for item in (self.kept, self._fine, self._fast, self.positions, self.normals):
+        if self._sorted is not None:
+            indices, arrays = self._sorted
+            arrays.release()
+            indices.release()
+        for item in (self.kept, self._arrays, self.positions, self.normals):
             item.release()
+
+
+class _Arrays:
+    """Vertices with an order to draw them in, for both programs."""
+
+    def __init__(self, mesh: PaneMesh, indices: moderngl.Buffer) -> None:
+        scene = mesh.scene
+        content = [
+            (mesh.positions, "3f", "position"),
+            (mesh.normals, "3f", "normal"),
+            (scene.albedo, "4f2", "albedo"),
+        ]
+        self.fine = scene.ctx.vertex_array(scene.fine_program, content, indices)
+        self.fast = scene.ctx.vertex_array(scene.fast_program, content, indices)
+
+    def release(self) -> None:
+        """Give the graphics memory back."""
+        self.fine.release()
+        self.fast.release()

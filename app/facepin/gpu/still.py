@@ -1,0 +1,64 @@
+"""What does not move is drawn once, as if it were part of the wall: a frame costs what moves.
+
+Without a graphics card the face is most of a frame.  As long as it is seen from where it was, a frame begins
+with a copy of wall and still triangles, with their depth, and only what moves is drawn over that.
+"""
+
+from collections.abc import Sequence
+
+from facepin.core.camera import Camera, Viewport
+from facepin.gpu.canvas import Canvas
+from facepin.gpu.framing import frame
+from facepin.gpu.scene import PaneMesh, Scene
+
+
+class StillLayer:
+    """Wall and still triangles of all panes."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._kept = Canvas(scene.ctx, 0)
+        self._sight: object = None
+
+    def draw(
+        self, canvas: Canvas, sights: Sequence[tuple[Viewport, Camera]], meshes: Sequence[PaneMesh | None]
+    ) -> None:
+        """Erase a canvas and draw the wall and what is still of every face, as `fine=False` draws it.
+
+        The rest is to be drawn with `PaneMesh.draw_framed` and `part="moving"`.
+
+        Parameters
+        ----------
+        canvas : Canvas
+            Has a size, and no samples.
+        sights : sequence of (viewport, camera)
+            The panes.
+        meshes : sequence of PaneMesh or None
+            Their faces; None where something else is drawn instead.
+        """
+        framings = [frame(camera, viewport, canvas.size[1]) for viewport, camera in sights]
+        faces = [(mesh, framing) for mesh, framing in zip(meshes, framings, strict=True) if mesh is not None]
+        sight = (canvas.size, tuple(sights), tuple(meshes), self._scene.refined)
+        if sight != self._sight:
+            self.forget()
+            for mesh, _ in faces:
+                mesh.motion.forget()
+            self._sight = sight
+        sorted_anew = [mesh.follow(framing) for mesh, framing in faces]
+        if not any(mesh.motion.still for mesh, _ in faces):
+            self._scene.background.draw(canvas, sights)
+            return
+        if any(sorted_anew):
+            self._kept.resize(*canvas.size)
+            self._scene.background.draw(self._kept, sights)
+            for mesh, framing in faces:
+                mesh.draw_framed(self._kept, framing, fine=False, part="still")
+        self._kept.copy_to(canvas)
+
+    def forget(self) -> None:
+        """Begin anew with the next picture: then less may move."""
+        self._sight = None
+
+    def release(self) -> None:
+        """Give the graphics memory back."""
+        self._kept.release()

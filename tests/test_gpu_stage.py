@@ -14,6 +14,7 @@ from facepin.gpu.canvas import Canvas
 from facepin.gpu.picture import draw_picture
 from facepin.panels.view import Ghost, PaneView
 from facepin.session.drag import DragTool
+from facepin.session.edit import Edit
 from facepin.session.session import Session
 from facepin.session.solving import choose
 from facepin.stage import Stage
@@ -33,10 +34,14 @@ class Shown:
         self.canvas = Canvas(ctx, 0)
         self.canvas.resize(SIZE, SIZE)
 
-    def draw(self, *views: PaneView) -> np.ndarray:
+    def draw(self, *views: PaneView, fine: bool = True) -> np.ndarray:
         sights = [(pane, camera(self.rig)) for pane in PANES]
-        self.stage.draw(self.canvas, sights, views, DragTool(), 1.0, fine=True)
+        self.stage.draw(self.canvas, sights, views, DragTool(), 1.0, fine=fine)
         return self.canvas.read().astype(int)
+
+    def stretch(self, weight: float) -> None:
+        self.session.apply(Edit("Set weight", True, weights=np.full(1, weight)))
+        self.stage.update()
 
     def release(self) -> None:
         self.stage.release()
@@ -94,3 +99,30 @@ def test_the_saved_picture_is_the_pane_without_its_pins(shown: Shown) -> None:
     stage, size = shown.stage, (SIZE // 2, SIZE)
     image = draw_picture(stage.mesh(0), camera(shown.rig), size, samples=0, overlays=stage.overlays(0, view))
     assert np.mean(np.abs(image.astype(int) - seen).max(axis=2) > 8) < 0.01
+
+
+def test_a_drag_over_still_parts_looks_like_the_pose_alone(gl: moderngl.Context) -> None:
+    views = [PaneView()] * 3 + [PaneView(heat=True)] * 2 + [PaneView()] * 2
+    steps = [(0.3 + 0.05 * step, view) for step, view in enumerate(views)]
+    dragged, fresh = Shown(gl), []
+    for weight, view in steps:
+        alone = Shown(gl)
+        alone.stretch(weight)
+        fresh.append(alone.draw(PaneView(), view, fine=False))
+        alone.release()
+    for (weight, view), expected in zip(steps, fresh, strict=True):
+        dragged.stretch(weight)
+        seen = dragged.draw(PaneView(), view, fine=False)
+        assert np.count_nonzero(np.abs(seen - expected).max(axis=2) > 12) <= 12
+    assert dragged.stage.mesh(0).motion.still, "half of the ball does not move"
+    np.testing.assert_array_equal(dragged.draw(PaneView(), PaneView()), final_picture(gl, steps[-1][0]))
+    dragged.release()
+
+
+def final_picture(gl: moderngl.Context, weight: float) -> np.ndarray:
+    """A resting picture of a pose that was never dragged."""
+    shown = Shown(gl)
+    shown.stretch(weight)
+    picture = shown.draw(PaneView(), PaneView())
+    shown.release()
+    return picture

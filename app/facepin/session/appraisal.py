@@ -35,7 +35,6 @@ class Appraiser:
         self._reference: Floats | None = None
         self._places: tuple[int, ...] | None = None
         self._resting: NDArray[np.intp] = np.zeros(0, np.intp)
-        self._rest: Points = np.zeros((0, 3), np.float32)
 
     def appraise(self, pane: Pane, positions: Points, reference: Floats | None) -> Appraisal:
         """Measure a pane.
@@ -52,8 +51,8 @@ class Appraiser:
         rig, weights, pins = self._rig, pane.pose.weights, pane.pose.pins
         self._find_resting(pins, reference)
         # As measures.far_motion, in float32 and without a square root per vertex: it is done on every frame.
-        moved = positions[self._resting] - self._rest
-        far = float(np.einsum("ij,ij->i", moved, moved).max(initial=0.0)) ** 0.5
+        moved = positions - rig.neutral
+        far = float(np.einsum("ij,ij->i", moved, moved)[self._resting].max(initial=0.0)) ** 0.5
         return Appraisal(
             measures.percent(measures.pin_error(positions, pins), rig.height),
             measures.percent(far, rig.height),
@@ -72,4 +71,3 @@ class Appraiser:
             else:
                 mask = measures.far_from_pins(rig.neutral, pins, NEAR_PINS * rig.height)
             self._reference, self._places, self._resting = reference, places, np.flatnonzero(mask)
-            self._rest = rig.neutral[self._resting]

@@ -96,18 +96,11 @@ class Canvas:
     def resolve(self, target: moderngl.Framebuffer, part: Viewport | None = None) -> None:
         """Copy the picture, or a part, to a framebuffer of the same size: pixels are means of samples."""
         # Not from the one with depth: depth would be copied too, or refused where its format differs.
-        self._copy(self.overlay, target, part)
+        self._copy(self.overlay, target)
 
-    def _copy(
-        self, source: moderngl.Framebuffer, target: moderngl.Framebuffer, part: Viewport | None = None
-    ) -> None:
+    def _copy(self, source: moderngl.Framebuffer, target: moderngl.Framebuffer) -> None:
         self._use_all_of(source)
         self._use_all_of(target)
-        if part is not None:
-            left, right = round(part.x), round(part.x + part.width)
-            top, bottom = round(part.y), round(part.y + part.height)
-            target.scissor = (left, target.height - bottom, right - left, bottom - top)
-            target.use()
         self.ctx.copy_framebuffer(target, source)
 
     def read(self) -> NDArray[np.uint8]:

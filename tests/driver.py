@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from facepin.actions import carry_out
 from facepin.core.events import KeyPressed, Modifiers, PointerMoved, PointerPressed, PointerReleased
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk import Desk
 from facepin.main_loop import Frame, Start, frames
+from facepin.panels.requests import Request
 from facepin.session.session import Session
 from facepin.session.solving import choose
 from facepin.window import Window
@@ -76,6 +78,10 @@ class App:
 
     def key(self, key: str, **held: bool) -> None:
         self.step(KeyPressed(key, Modifiers(**held)), frames=2)
+
+    def ask(self, request: Request) -> None:
+        """Ask for something as a menu would."""
+        carry_out(request, self.desk)
 
     def pixel_of(self, vertex: int) -> tuple[float, float]:
         """Where a vertex of the active pane is on the screen."""

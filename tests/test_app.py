@@ -233,7 +233,7 @@ def test_a_pose_is_saved_and_loaded_by_typing_a_path(tmp_path: Path) -> None:
 
 def _answer(app: App, command: Command, path: Path) -> None:
     """Ask for a command that asks for a path, and answer it."""
-    app.desk.carry_out(command, app.frame.viewport)
+    app.ask(command)
     app.step(PointerMoved(5, 5), frames=2)
     assert app.desk.dialog is not None
     app.desk.dialog._finish(path)
@@ -290,14 +290,14 @@ def test_the_menu_of_a_pin_opens_once_and_changes_the_pin() -> None:
         app.release(x, y, "right")
         assert app.desk.view.pin_menu == pin.vertex
         weights = app.session.pose.weights
-        app.desk.carry_out(SetPin(pin.vertex, freedom="screen"), app.frame.viewport)
+        app.ask(SetPin(pin.vertex, freedom="screen"))
         assert app.session.pose.pins[0].freedom == "screen"
         assert app.session.pose.weights is not weights  # solved again at once
         # A click beside it closes it for good.
         app.press(20, 500)
         app.release(20, 500)
         assert app.desk.view.pin_menu is None
-        app.desk.carry_out(SetPin(pin.vertex, remove=True), app.frame.viewport)
+        app.ask(SetPin(pin.vertex, remove=True))
         assert not app.session.pose.pins
 
 
@@ -310,7 +310,7 @@ def test_a_pin_that_no_shape_moves_is_pointed_out() -> None:
 def test_several_panes_are_dragged_as_one_and_undone_as_one() -> None:
     with running(size=(1600, 900)) as app:
         for key in ("tikhonov", "sparse", "tikhonov"):
-            app.desk.carry_out(AddPane(choose(key)), app.frame.viewports[0])
+            app.ask(AddPane(choose(key)))
         app.step(PointerMoved(5, 5), frames=3)
         assert len(app.frame.viewports) == 4
         before = app.session.work
@@ -331,7 +331,7 @@ def test_several_panes_are_dragged_as_one_and_undone_as_one() -> None:
         app.key("z", control=True)
         assert app.session.work is before
         app.key("z", control=True, shift=True)
-        app.desk.carry_out(KeepPane(2), app.frame.viewports[0])
+        app.ask(KeepPane(2))
         app.step(PointerMoved(6, 6), frames=3)
         assert len(app.frame.viewports) == 1
         assert app.session.pose is panes[2].pose
@@ -341,7 +341,7 @@ def test_several_panes_are_dragged_as_one_and_undone_as_one() -> None:
 
 def test_cameras_can_be_unlinked() -> None:
     with running(size=(1600, 900)) as app:
-        app.desk.carry_out(AddPane(choose("tikhonov")), app.frame.viewports[0])
+        app.ask(AddPane(choose("tikhonov")))
         app.step(PointerMoved(5, 5), frames=3)
         corner = app.frame.viewports[1]
         at = (corner.x + corner.width - 30, corner.y + corner.height - 30)
@@ -354,7 +354,7 @@ def test_cameras_can_be_unlinked() -> None:
 
 def test_the_reference_is_measured_against_and_undone() -> None:
     with running(size=(1600, 900)) as app:
-        app.desk.carry_out(AddPane(choose("tikhonov")), app.frame.viewports[0])
+        app.ask(AddPane(choose("tikhonov")))
         weights = np.zeros(app.session.rig.shape_count)
         weights[[3, 8]] = 0.7, 0.5
         app.session.set_reference(weights)
@@ -408,7 +408,7 @@ def test_a_pose_that_nobody_saved_is_kept_when_the_program_ends_or_another_rig_i
         app.until(lambda: app.session.rig.name == "control")
         assert "is kept in" in app.desk.message
         app.session.apply(Edit("Set", True, weights=np.array([0.25, 0, 0])))
-        app.desk.carry_out(Command.QUIT, app.frame.viewport)
+        app.ask(Command.QUIT)
         with pytest.raises(StopIteration):
             app.step(frames=2)
     kept = {path.name: json.loads(path.read_text()) for path in (tmp_path / "unsaved").iterdir()}
@@ -433,7 +433,7 @@ def test_a_fault_in_a_frame_keeps_the_pose(tmp_path: Path, monkeypatch: pytest.M
 
 def test_home_resets_all_panes() -> None:
     with running(size=(1600, 900)) as app:
-        app.desk.carry_out(AddPane(choose("tikhonov")), app.frame.viewports[0])
+        app.ask(AddPane(choose("tikhonov")))
         app.step(PointerMoved(5, 5), frames=3)
         app.session.apply(Edit("Drag pin", True, (Pin(100, (0.0, 0.0, 9.0)),), solve=True))
         app.key("home")

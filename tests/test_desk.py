@@ -19,7 +19,7 @@ from facepin.session.solving import PinSolver, choose
 def test_requests_of_one_frame_build_on_each_other(tmp_path: Path) -> None:
     with running(pictures=tmp_path) as app:
         for request in (AddPane(choose("tikhonov")), Command.FRAME, Command.SCREENSHOT):
-            app.desk.carry_out(request, app.frame.viewport)
+            app.ask(request)
         assert not app.desk.is_error
         assert len(list(tmp_path.iterdir())) == 1
         app.step(PointerMoved(5, 5), frames=2)
@@ -38,7 +38,7 @@ def test_a_solver_that_fails_when_it_is_chosen_says_so(
         app.desk.apply(Edit("Drag pin", True, (Pin(4000, (x, y - 0.5, z)),), solve=True))
         weights = app.session.pose.weights
         monkeypatch.setattr(PinSolver, "solve", fail)
-        app.desk.carry_out(request_of(choose("tikhonov")), app.frame.viewport)
+        app.ask(request_of(choose("tikhonov")))
         assert app.desk.is_error
         assert app.desk.message == "no solution for these pins"
         np.testing.assert_array_equal(app.session.pose.weights, weights)
@@ -46,9 +46,9 @@ def test_a_solver_that_fails_when_it_is_chosen_says_so(
 
 def test_one_question_for_a_file_at_a_time() -> None:
     with running() as app:
-        app.desk.carry_out(Command.SAVE_POSE, app.frame.viewport)
+        app.ask(Command.SAVE_POSE)
         asked = app.desk.dialog
-        app.desk.carry_out(Command.OPEN_FILE, app.frame.viewport)
+        app.ask(Command.OPEN_FILE)
         assert app.desk.dialog is asked
         assert app.desk.is_error
         app.desk.release()
@@ -58,7 +58,7 @@ def test_one_question_for_a_file_at_a_time() -> None:
 def test_a_pane_keeps_its_camera_and_overlays_when_others_are_closed() -> None:
     with running(size=(1600, 900)) as app:
         for key in ("tikhonov", "sparse"):
-            app.desk.carry_out(AddPane(choose(key)), app.frame.viewport)
+            app.ask(AddPane(choose(key)))
         app.step(PointerMoved(5, 5), frames=3)
         app.desk.view.linked = False
         for at in range(3):
@@ -67,7 +67,7 @@ def test_a_pane_keeps_its_camera_and_overlays_when_others_are_closed() -> None:
         app.desk.view.panes[1].wireframe = True
 
         def seen(request: object) -> tuple[list[Camera], list[bool]]:
-            app.desk.carry_out(request, app.frame.viewport)
+            app.ask(request)
             app.step(PointerMoved(6, 6), frames=2)
             return app.desk.cameras, [view.wireframe for view in app.desk.view.panes]
 
@@ -75,11 +75,11 @@ def test_a_pane_keeps_its_camera_and_overlays_when_others_are_closed() -> None:
         assert seen(KeepPane(1)) == (cameras[2:], [False])
         assert seen(AddPane(choose("hybrid"))) == ([cameras[2]] * 2, [False, False])
         for _ in range(2):
-            app.desk.carry_out(Command.UNDO, app.frame.viewport)
+            app.ask(Command.UNDO)
         assert seen(Command.UNDO) == (cameras, [False, True, False])
         # Linked cameras are one also for a pane that comes back.
         app.desk.view.linked = True
-        app.desk.carry_out(ClosePane(0), app.frame.viewport)
+        app.ask(ClosePane(0))
         app.desk.look(cameras[1].orbited(1, 0))
         assert seen(Command.UNDO)[0] == [cameras[1].orbited(1, 0)] * 3
 

@@ -14,6 +14,7 @@ LAYERS: list[set[str]] = [
     {"commands"},
     {"main_loop", "figures"},
     {"interface", "routing"},
+    {"actions"},
     {"desk"},
     {"papers"},
     {"stage", "options"},

@@ -91,7 +91,7 @@ def test_keys_change_nothing_under_a_drag(key: KeyPressed) -> None:
 
 def test_undo_does_not_take_the_pane_from_under_the_camera() -> None:
     with running(size=(1600, 900)) as app:
-        app.desk.carry_out(AddPane(choose("tikhonov")), app.frame.viewports[0])
+        app.ask(AddPane(choose("tikhonov")))
         app.step(PointerMoved(5, 5), frames=3)
         corner = app.frame.viewports[1]
         at = (corner.x + corner.width - 30, corner.y + corner.height - 30)

@@ -1,7 +1,6 @@
-"""What lies on the desk: the open rig, cameras on it, files being opened or saved; carries out requests."""
+"""What lies on the desk: the open rig, cameras on it, files being opened or asked for."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import moderngl
@@ -9,53 +8,27 @@ import numpy as np
 
 from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
-from facepin.core.pose import Pin, Pose
+from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.files import open_rig
-from facepin.files.formats import write_model
-from facepin.files.pose_file import read_pose, write_pose
 from facepin.options import BUILTIN
 from facepin.panels.file_dialog import FileDialog, Kind
-from facepin.panels.requests import (
-    VIEW_COMMANDS,
-    AddPane,
-    CancelLoading,
-    ClosePane,
-    Command,
-    KeepPane,
-    OpenPath,
-    RandomReference,
-    Request,
-    SelectPane,
-    SetPin,
-    UseSolver,
-)
+from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
-from facepin.papers import free_name, keep_pose, save_picture
+from facepin.papers import keep_pose
 from facepin.resources import resource
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
 from facepin.session.loading import Loading
-from facepin.session.reference import random_reference
 from facepin.session.session import Session, Work
 from facepin.session.solving import SolverChoice
 from facepin.stage import Stage
 
 ChartWriter = Callable[[Session, Path], None]
 
-_POSES = ("Poses", "*.json *.csv")
-_DIALOGS: dict[Command, tuple[Kind, tuple[str, ...]]] = {
-    Command.OPEN_FILE: ("open file", ("Faces", "*.glb *.gltf *.vrm *.npz *.obj", "All files", "*")),
-    Command.OPEN_FOLDER: ("open folder", ()),
-    Command.LOAD_POSE: ("open file", _POSES),
-    Command.SAVE_POSE: ("save file", _POSES),
-    Command.REFERENCE_FROM_FILE: ("open file", _POSES),
-    Command.EXPORT: ("save file", ("Models", "*.glb *.obj *.ply *.stl")),
-}
-
 
 class Desk:
-    """Carries out requests; holds what they act on."""
+    """Holds what requests act on; `facepin.actions` carries them out."""
 
     def __init__(
         self,
@@ -99,13 +72,16 @@ class Desk:
         self.opened: Path | None = None
         """The last rig that was opened from a file, for the list of recent ones."""
         self.closing = False
+        self.viewport = Viewport(0, 0, 1, 1)
+        """Of the first pane, as last drawn."""
+        self.pictures = pictures
+        self.chart_writer = chart_writer
         self._ctx = ctx
         self._choices = choices
         self._native = native_dialogs
-        self._pictures = pictures
         self._unsaved = unsaved
-        self._chart_writer = chart_writer
-        self._asked: Command | None = None
+        self._then: Callable[[Path], None] = self.open
+        """What the open dialog is for."""
         self._saved: Work | None = None
         self._first_pose: Callable[[Rig], Pose] | None = None
         self._solve_first = False
@@ -171,47 +147,21 @@ class Desk:
             path, lambda path, progress: open_rig(path, neutral=neutral, progress=progress)
         )
 
-    def poll(self, viewport: Viewport) -> None:
+    def poll(self) -> None:
         """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""
         if self.loading is not None and self.loading.finished:
             loading, self.loading = self.loading, None
-            with self._reporting():
+            with self.reporting():
                 rig = loading.result()
                 if rig is not None:
-                    self._show(rig, viewport)
+                    self._show(rig)
                     if loading.path != resource("assets", BUILTIN):
                         self.opened = loading.path
         if self.dialog is not None and self.dialog.finished:
             dialog, self.dialog = self.dialog, None
             if dialog.path is not None:
-                with self._reporting():
-                    self._answered(dialog.path)
-
-    def carry_out(self, request: Request, viewport: Viewport) -> None:
-        """Do what was asked; what can't be done is said in the status line."""
-        with self._reporting():
-            match request:
-                case OpenPath(path) if path.suffix.lower() in (".json", ".csv") and self.session is not None:
-                    self._load_pose(self.session, path)
-                case OpenPath(path):
-                    self.open(path)
-                case CancelLoading() if self.loading is not None:
-                    self.loading.cancel()
-                case Command.QUIT:
-                    self.closing = True
-                case Command.OPEN_BUILTIN:
-                    self.open(resource("assets", BUILTIN))
-                case Command.OPEN_FILE | Command.OPEN_FOLDER:
-                    self._ask(request, Path.home() if self.opened is None else self.opened.parent)
-                case _ if self.stage is not None:
-                    # What an earlier request of the same frame changed.
-                    self.sync()
-                    self.stage.update()
-                    self._act(request, self.stage, viewport)
-
-    def _say_failure(self, session: Session) -> None:
-        if session.message:
-            self.say(session.message, error=True)
+                with self.reporting():
+                    self._then(dialog.path)
 
     def apply(self, edit: Edit) -> None:
         """Apply an edit to the session, and pass on what it has to say."""
@@ -224,6 +174,10 @@ class Desk:
             held = [pin.vertex for pin in self.session.pose.pins[-1:]]
             stuck = edit.label == "Place pin" and not self.session.rig.rows_at(held).any()
             self.say("No shape of this rig moves the point under the new pin" if stuck else "")
+
+    def saved(self) -> None:
+        """Take the work as it is for saved."""
+        self._saved = self.session.committed if self.session else None
 
     def keep_unsaved(self) -> Path | None:
         """Write the pose to a file of its own if nobody saved it; return where."""
@@ -243,92 +197,7 @@ class Desk:
         if self.stage is not None:
             self.stage.release()
 
-    def _act(self, request: Request, stage: Stage, viewport: Viewport) -> None:
-        """Carry out a request that needs an open rig."""
-        session = stage.session
-        pose, rig = session.pose, session.rig
-        if not isinstance(request, SelectPane):
-            self.say("")
-        match request:
-            case UseSolver(pane, choice, final):
-                session.choose_solver(pane, choice, final=final)
-                self._say_failure(session)
-            case AddPane(choice):
-                session.add_pane(choice)
-                self._say_failure(session)
-            case SelectPane(pane):
-                session.active = pane
-            case ClosePane(pane):
-                session.close_pane(pane)
-            case KeepPane(pane):
-                session.keep_pane(pane)
-            case Command.REFERENCE_FROM_POSE:
-                session.set_reference(pose.weights)
-            case RandomReference(shapes):
-                session.set_reference(random_reference(rig, shapes, np.random.default_rng()))
-            case Command.HEAT:
-                shown = self.view.panes[session.active]
-                shown.heat = not shown.heat
-            case Command.WIREFRAME:
-                shown = self.view.panes[session.active]
-                shown.wireframe = not shown.wireframe
-            case Command.GHOST:
-                has_reference = session.work.reference is not None
-                self.view.panes[session.active].next_ghost(has_reference=has_reference)
-            case Command.CHART:
-                self.view.chart = not self.view.chart
-            case Command.SAVE_CHART:
-                self._save_chart(session)
-            case Command.FORGET_REFERENCE:
-                session.set_reference(None)
-            case SetPin():
-                self._set_pin(session, request)
-            case Command.UNDO:
-                label = session.undo_label
-                self.say(f"Undone: {label}" if session.undo() else "Nothing to undo")
-            case Command.REDO:
-                label = session.redo_label
-                self.say(f"Redone: {label}" if session.redo() else "Nothing to redo")
-            case Command.RESET_POSE:
-                session.reset()
-            case Command.DELETE_PINS:
-                kept = tuple(pin for pin in pose.pins if pin.vertex not in self.tool.selected)
-                if len(kept) < len(pose.pins):
-                    self.apply(Edit("Remove pins", True, kept))
-            case Command.CLEAR_PINS:
-                self.apply(Edit("Remove all pins", True, ()))
-            case Command.FRAME:
-                self.look(frame_points(stage.positions(session.active), viewport.aspect, self.camera))
-            case Command.SCREENSHOT:
-                shown = self.view.panes[session.active]
-                path = save_picture(stage, shown, self.camera, viewport, self._pictures)
-                self.say(f"Saved {path}")
-            case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT | Command.REFERENCE_FROM_FILE:
-                suffix = ".glb" if request is Command.EXPORT else ".json"
-                folder = Path.home() if self.opened is None else self.opened.parent
-                opens = request in (Command.LOAD_POSE, Command.REFERENCE_FROM_FILE)
-                asked = folder if opens else folder / f"{rig.name}{suffix}"
-                self._ask(request, asked)
-            case Command() if request in VIEW_COMMANDS:
-                self.look(self.camera.looking(VIEW_COMMANDS[request]))
-
-    def _set_pin(self, session: Session, request: SetPin) -> None:
-        pins = session.pose.pins
-        if request.remove:
-            kept = tuple(pin for pin in pins if pin.vertex != request.vertex)
-            self.apply(Edit("Remove pin", True, kept))
-            return
-
-        def changed(pin: Pin) -> Pin:
-            if pin.vertex != request.vertex:
-                return pin
-            return replace(
-                pin, freedom=request.freedom or pin.freedom, stiffness=request.stiffness or pin.stiffness
-            )
-
-        self.apply(Edit("Change pin", request.final, tuple(changed(pin) for pin in pins), solve=True))
-
-    def _show(self, rig: Rig, viewport: Viewport) -> None:
+    def _show(self, rig: Rig) -> None:
         """Put an opened rig on the desk."""
         pose, complaint = None, ""
         try:
@@ -349,7 +218,7 @@ class Desk:
         count = len(session.panes)
         width, height, _ = np.ptp(rig.neutral, axis=0).tolist()
         camera = Camera(radius=0.0, least_aspect=min(1.15 * width / max(height, 1e-9), 2.0))
-        framed = frame_points(stage.positions(session.active), viewport.aspect, camera)
+        framed = frame_points(stage.positions(session.active), self.viewport.aspect, camera)
         self.cameras = [framed] * count
         self.view.panes = [PaneView() for _ in range(count)]  # what was shown over another face is over
         self._numbers, self._looks = [pane.number for pane in session.panes], {}
@@ -363,47 +232,38 @@ class Desk:
         elif not is_first:  # what was wrong with the start stays to be read
             self.say("")
 
-    def _ask(self, command: Command, start: Path) -> None:
+    def ask(
+        self,
+        kind: Kind,
+        command: Command,
+        start: Path,
+        filters: tuple[str, ...],
+        then: Callable[[Path], None],
+    ) -> None:
+        """Ask the user for a path; `then` is called with the answer, some frames later.
+
+        Parameters
+        ----------
+        kind : str
+            What may be chosen.
+        command : Command
+            What it is for.
+        start : Path
+            Folder to begin in, or the suggested file when saving.
+        filters : tuple of str
+            Pairs of a name and patterns.
+        then : callable
+            Not called when the user gives up.
+
+        Raises
+        ------
+        FacepinError
+            When another question is still open.
+        """
         if self.dialog is not None:
             raise FacepinError("another question for a file waits for its answer")
-        kind, filters = _DIALOGS[command]
-        self._asked = command
         self.dialog = FileDialog(kind, command.title.rstrip("…"), start, filters, use_native=self._native)
-
-    def _answered(self, path: Path) -> None:
-        """Go on with what the dialog was for."""
-        if self._asked in (Command.OPEN_FILE, Command.OPEN_FOLDER):
-            self.open(path)
-            return
-        if self.session is None:
-            return
-        rig, pose = self.session.rig, self.session.pose
-        if self._asked is Command.LOAD_POSE:
-            self._load_pose(self.session, path)
-        elif self._asked is Command.REFERENCE_FROM_FILE:
-            loaded, report = read_pose(path, rig)
-            self.session.set_reference(loaded.weights)
-            self.say(f"{path.name}: {report}" if report else f"{path.name} is the reference")
-        elif self._asked is Command.SAVE_POSE:
-            write_pose(path, rig, pose)
-            self._saved = self.session.committed
-            self.say(f"Saved {path}")
-        elif self._asked is Command.EXPORT:
-            write_model(rig, pose.weights, path)
-            self.say(f"Exported {path}")
-
-    def _load_pose(self, session: Session, path: Path) -> None:
-        loaded, report = read_pose(path, session.rig)
-        self.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
-        self.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
-
-    def _save_chart(self, session: Session) -> None:
-        """Write the charts of all panes: pictures, drawings and a table."""
-        if self._chart_writer is None:
-            raise FacepinError("charts cannot be written here")
-        folder = free_name(self._pictures, f"{session.rig.name}-chart", "")
-        self._chart_writer(session, folder)
-        self.say(f"Saved {folder}")
+        self._then = then
 
     def sync(self) -> None:
         """Give every pane its camera and view, which it keeps when others are closed and finds after undo."""
@@ -417,12 +277,13 @@ class Desk:
         self.view.panes = [view for _, view in looks]
         self._numbers = numbers
 
-    def _reporting(self) -> "_Reporting":
+    def reporting(self) -> "_Reporting":
+        """Show what goes wrong inside a `with` block in the status line; bugs pass through."""
         return _Reporting(self)
 
 
 class _Reporting:
-    """Shows what goes wrong inside a `with` block in the status line; bugs pass through."""
+    """See `Desk.reporting`."""
 
     def __init__(self, desk: Desk) -> None:
         self._desk = desk

@@ -10,6 +10,7 @@ import moderngl
 from imgui_bundle import imgui
 
 from facepin import interface
+from facepin.actions import carry_out
 from facepin.core.camera import Viewport
 from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
@@ -128,6 +129,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
     desk.open(rig, start.first_pose, solve=start.solve_first, neutral=start.neutral)
     viewport = Viewport(0, 0, *window.size)
     viewports: tuple[Viewport, ...] = (viewport,)
+    desk.viewport = viewport
     scale: float | None = None
     drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
@@ -166,7 +168,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
             reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
             scale = window.scale * view.ui_scale / window.pixel_ratio
             apply_theme(scale)
-        desk.poll(viewport)
+        desk.poll()
         desk.sync()
         window.begin_frame()
 
@@ -180,6 +182,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         if desk.stage is not None:
             moved = desk.stage.update()
             viewports = layout.split(viewport, len(desk.stage.session.panes), PANE_GAP * window.scale)
+            desk.viewport = viewports[0]
             asked += interface.over_picture(desk, viewport, viewports, window.pixel_ratio, scale)
 
             # The picture, where it is another than the last one.
@@ -206,7 +209,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
 
         # What was asked for is there in the next frame.
         for request in asked:
-            desk.carry_out(request, viewports[0])
+            carry_out(request, desk)
         if asked:
             desk.sync()
             settling = SETTLE

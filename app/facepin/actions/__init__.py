@@ -1,0 +1,29 @@
+"""What menus, keys and panels can ask for, carried out: one module per topic.
+
+Each has `act(request, desk)`, which does what was asked and says whether it was its business.
+"""
+
+from collections.abc import Callable
+
+from facepin.actions import comparing, files, pinning, posing, viewing
+from facepin.desk import Desk
+from facepin.panels.requests import Request
+
+TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
+    files.act,
+    posing.act,
+    pinning.act,
+    comparing.act,
+    viewing.act,
+)
+
+
+def carry_out(request: Request, desk: Desk) -> None:
+    """Do what was asked; what can't be done is said in the status line."""
+    with desk.reporting():
+        # What an earlier request of the same frame changed.
+        desk.sync()
+        if desk.stage is not None:
+            desk.stage.update()
+        if not any(act(request, desk) for act in TOPICS) and desk.stage is not None:
+            raise AssertionError(f"nothing carries out {request}")

@@ -1,0 +1,88 @@
+"""Opening, saving and leaving."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from facepin.desk import Desk
+from facepin.files.formats import write_model
+from facepin.files.pose_file import read_pose, write_pose
+from facepin.options import BUILTIN
+from facepin.panels.file_dialog import Kind
+from facepin.panels.requests import CancelLoading, Command, OpenPath, Request
+from facepin.papers import save_picture
+from facepin.resources import resource
+from facepin.session.edit import Edit
+from facepin.session.session import Session
+
+POSES = ("Poses", "*.json *.csv")
+FACES = ("Faces", "*.glb *.gltf *.vrm *.npz *.obj", "All files", "*")
+MODELS = ("Models", "*.glb *.obj *.ply *.stl")
+
+
+def act(request: Request, desk: Desk) -> bool:
+    """Carry out what concerns files."""
+    session = desk.session
+    match request:
+        case OpenPath(path) if path.suffix.lower() in (".json", ".csv") and session is not None:
+            load_pose(desk, session, path)
+        case OpenPath(path):
+            desk.open(path)
+        case CancelLoading():
+            if desk.loading is not None:
+                desk.loading.cancel()
+        case Command.QUIT:
+            desk.closing = True
+        case Command.OPEN_BUILTIN:
+            desk.open(resource("assets", BUILTIN))
+        case Command.OPEN_FILE | Command.OPEN_FOLDER:
+            start = Path.home() if desk.opened is None else desk.opened.parent
+            kind: Kind = "open file" if request is Command.OPEN_FILE else "open folder"
+            desk.ask(kind, request, start, FACES if kind == "open file" else (), desk.open)
+        case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT if session is not None:
+            desk.say("")
+            _ask_for(request, desk, session)
+        case Command.SCREENSHOT if desk.stage is not None and session is not None:
+            shown = desk.view.panes[session.active]
+            path = save_picture(desk.stage, shown, desk.camera, desk.viewport, desk.pictures)
+            desk.say(f"Saved {path}")
+        case _:
+            return False
+    return True
+
+
+def load_pose(desk: Desk, session: Session, path: Path) -> None:
+    """Put a pose file on the face, and say what of it did not fit."""
+    loaded, report = read_pose(path, session.rig)
+    desk.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
+    desk.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
+
+
+def _ask_for(command: Command, desk: Desk, session: Session) -> None:
+    """Ask which file to load or write, then do so with what is open by then."""
+    folder = Path.home() if desk.opened is None else desk.opened.parent
+
+    def answered(do: Callable[[Desk, Session, Path], None]) -> Callable[[Path], None]:
+        def then(path: Path) -> None:
+            if desk.session is not None:
+                do(desk, desk.session, path)
+
+        return then
+
+    match command:
+        case Command.LOAD_POSE:
+            desk.ask("open file", command, folder, POSES, answered(load_pose))
+        case Command.SAVE_POSE:
+            desk.ask("save file", command, folder / f"{session.rig.name}.json", POSES, answered(_save_pose))
+        case Command.EXPORT:
+            desk.ask("save file", command, folder / f"{session.rig.name}.glb", MODELS, answered(_export))
+
+
+def _save_pose(desk: Desk, session: Session, path: Path) -> None:
+    write_pose(path, session.rig, session.pose)
+    desk.saved()
+    desk.say(f"Saved {path}")
+
+
+def _export(desk: Desk, session: Session, path: Path) -> None:
+    write_model(session.rig, session.pose.weights, path)
+    desk.say(f"Exported {path}")

@@ -1,0 +1,24 @@
+"""The pose as a whole, and the way back."""
+
+from facepin.desk import Desk
+from facepin.panels.requests import Command, Request
+
+
+def act(request: Request, desk: Desk) -> bool:
+    """Carry out what concerns the whole pose."""
+    session = desk.session
+    if session is None:
+        return False
+    match request:
+        case Command.UNDO:
+            label = session.undo_label
+            desk.say(f"Undone: {label}" if session.undo() else "Nothing to undo")
+        case Command.REDO:
+            label = session.redo_label
+            desk.say(f"Redone: {label}" if session.redo() else "Nothing to redo")
+        case Command.RESET_POSE:
+            desk.say("")
+            session.reset()
+        case _:
+            return False
+    return True

@@ -1,0 +1,33 @@
+"""How the face is looked at."""
+
+from facepin.core.camera import frame_points
+from facepin.desk import Desk
+from facepin.panels.requests import VIEW_COMMANDS, Command, Request
+
+
+def act(request: Request, desk: Desk) -> bool:
+    """Carry out what concerns cameras and overlays; undo leaves these alone."""
+    stage = desk.stage
+    if request is Command.RESET_LAYOUT:
+        return True  # the main loop has seen to it
+    if stage is None:
+        return False
+    active = stage.session.active
+    shown = desk.view.panes[active]
+    match request:
+        case Command.FRAME:
+            desk.look(frame_points(stage.positions(active), desk.viewport.aspect, desk.camera))
+        case Command() if request in VIEW_COMMANDS:
+            desk.look(desk.camera.looking(VIEW_COMMANDS[request]))
+        case Command.HEAT:
+            shown.heat = not shown.heat
+        case Command.WIREFRAME:
+            shown.wireframe = not shown.wireframe
+        case Command.GHOST:
+            shown.next_ghost(has_reference=stage.session.work.reference is not None)
+        case Command.CHART:
+            desk.view.chart = not desk.view.chart
+        case _:
+            return False
+    desk.say("")
+    return True

@@ -8,11 +8,14 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.desk import Desk
+from facepin.files.drafts import Leftover
 from facepin.panels import layout
 from facepin.panels.chart import chart_window
+from facepin.panels.history import history_window
 from facepin.panels.legend import heat_legend
 from facepin.panels.menu import menu_bar, pin_menu
 from facepin.panels.pane_title import pane_title
+from facepin.panels.recovery import WorkRow, lost_card, recovery_card
 from facepin.panels.requests import Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import hint, loading_card, status_line
@@ -33,13 +36,20 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
         Time of the last frame.
     """
     session = desk.session
-    asked = [menu_bar(desk.view, recent, session)]
+    asked = [menu_bar(desk.view, recent, session, has_leftovers=bool(desk.keeper.left))]
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
         timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
-    status_line(rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ())
+    status_line(
+        rig,
+        timing,
+        desk.message,
+        is_error=desk.is_error,
+        warnings=rig.warnings if rig else (),
+        unkept=desk.keeper.complaint,
+    )
     if desk.loading is not None and desk.loading.is_long:
         asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
     if desk.dialog is not None:
@@ -82,6 +92,32 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     if desk.view.chart and session is not None:
         desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
     return [asked for asked in (request, chart) if asked is not None]
+
+
+def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
+    """Draw what floats at the top of the picture, face or no face: history, unsaved work, a missing rig."""
+    place = (viewport.x / pixel_ratio, viewport.y / pixel_ratio)
+    width = viewport.width / pixel_ratio
+    session, view = desk.session, desk.view
+    asked: list[Request | None] = []
+    if view.history and session is not None:
+        view.history, step = history_window(session.rig, session.steps, session.step, *place, scale)
+        asked.append(step)
+    if desk.lost is not None:
+        asked.append(lost_card(desk.lost.line, *place, width))
+    elif desk.keeper.left and view.recovery.shown:
+        rows = [_work_row(leftover) for leftover in desk.keeper.left]
+        asked.append(recovery_card(rows, view.recovery, *place, width))
+    return [request for request in asked if request is not None]
+
+
+def _work_row(leftover: Leftover) -> WorkRow:
+    scene = leftover.scene
+    name = scene.rig.name if scene.of is None else f"{scene.of.name} ({scene.rig.name})"
+    pins, panes = len(scene.pins), len(scene.panes)
+    about = [f"{leftover.time:%d %b %H:%M}", f"{pins} pin{'' if pins == 1 else 's'}"]
+    about += [f"{panes} panes"] * (panes > 1)
+    return WorkRow(leftover.draft.path, name, "  ".join(about))
 
 
 def over_picture(

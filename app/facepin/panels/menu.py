@@ -31,7 +31,9 @@ RANDOM_SHAPES = (1, 2, 4, 8, 12)
 """Sizes of random reference poses on offer."""
 
 
-def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Request | None:
+def menu_bar(
+    view: View, recent: Sequence[Path], session: Session | None, *, has_leftovers: bool = False
+) -> Request | None:
     """Draw the menu bar; return what the user asks for, or None.
 
     Parameters
@@ -39,9 +41,11 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     view : View
         What is shown, changed in place.
     recent : paths
-        Rigs opened lately, newest first.
+        Rigs and scenes opened lately, newest first.
     session : Session
         What is open, if anything; only read.
+    has_leftovers : bool
+        Whether there is unsaved work of former windows.
     """
     undo = session.undo_label if session else None
     redo = session.redo_label if session else None
@@ -59,6 +63,10 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
                 imgui.set_item_tooltip(str(path))
             imgui.end_menu()
         asked = _item(Command.OPEN_BUILTIN) or asked
+        asked = _item(Command.UNSAVED_WORK, has_leftovers) or asked
+        imgui.separator()
+        for command in (Command.SAVE, Command.SAVE_AS):
+            asked = _item(command, session is not None) or asked
         imgui.separator()
         for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT, Command.SCREENSHOT):
             asked = _item(command) or asked
@@ -69,6 +77,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         close_on_escape()
         asked = _item(Command.UNDO, undo is not None, undo) or asked
         asked = _item(Command.REDO, redo is not None, redo) or asked
+        asked = _item(Command.HISTORY, session is not None) or asked
         imgui.separator()
         asked = _item(Command.DELETE_PINS, bool(pins)) or asked
         asked = _item(Command.CLEAR_PINS, bool(pins)) or asked

@@ -17,12 +17,17 @@ class Command(Enum):
     OPEN_FOLDER = "Open folder of OBJ files…", ("Ctrl+Shift+O",)
     OPEN_BUILTIN = "Open the built-in face", ()
     LOAD_POSE = "Load pose…", ("Ctrl+L",)
-    SAVE_POSE = "Save pose…", ("Ctrl+S",)
+    SAVE = "Save", ("Ctrl+S",)
+    SAVE_AS = "Save as…", ("Ctrl+Shift+S",)
+    LOCATE_RIG = "Show where the rig is…", ()
+    UNSAVED_WORK = "Unsaved work…", ()
+    SAVE_POSE = "Save pose…", ()
     EXPORT = "Export model…", ("Ctrl+E",)
     SCREENSHOT = "Save picture", ("F12",)
     QUIT = "Quit", ("Ctrl+Q",)
     UNDO = "Undo", ("Ctrl+Z",)
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y")
+    HISTORY = "History", ("Ctrl+Alt+Z",)
     RESET_POSE = "Reset the pose", ("Home",)
     DELETE_PINS = "Remove selected pins", ("Delete", "Backspace")
     CLEAR_PINS = "Remove all pins", ()
@@ -74,7 +79,7 @@ def command_for(event: KeyPressed) -> Command | None:
 
 @dataclass(frozen=True)
 class OpenPath:
-    """Open the rig at a path."""
+    """Open the rig, the scene or the pose at a path."""
 
     path: Path
 
@@ -136,8 +141,29 @@ class SetPin:
 
 
 @dataclass(frozen=True)
+class GoToStep:
+    """Undo or redo to one of the steps of the history."""
+
+    step: int
+
+
+@dataclass(frozen=True)
+class RestoreWork:
+    """Go on with unsaved work that a former window left over."""
+
+    draft: Path
+
+
+@dataclass(frozen=True)
+class DiscardWork:
+    """Throw unsaved work away that a former window left over."""
+
+    draft: Path
+
+
+@dataclass(frozen=True)
 class CancelLoading:
-    """Give up opening a file."""
+    """Give up opening a file, or looking for the rig of a scene."""
 
 
 Request = (
@@ -150,5 +176,8 @@ Request = (
     | KeepPane
     | RandomReference
     | SetPin
+    | GoToStep
+    | RestoreWork
+    | DiscardWork
     | CancelLoading
 )

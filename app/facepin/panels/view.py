@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from facepin.core.pose import Freedom
+from facepin.panels.recovery import RecoveryView
 from facepin.panels.weights import WeightsView
 
 Quality = Literal["auto", "always", "off"]
@@ -60,5 +61,8 @@ class View:
     """One per pane."""
     chart: bool = False
     """Whether the chart window is open."""
+    history: bool = False
+    """Whether the history window is open."""
+    recovery: RecoveryView = field(default_factory=RecoveryView)
     linked: bool = True
     """One camera for all panes."""

@@ -12,7 +12,7 @@ from facepin.session.history import Step
 from facepin.session.session import Work
 
 TITLE = "History"
-SIZE = (310.0, 330.0)
+SIZE = (290.0, 330.0)
 """Width and height at first, in pixels at 1x scale."""
 NOTEWORTHY = 0.005
 """A weight that changed by less is not spoken of."""

@@ -48,14 +48,19 @@ def recovery_card(
     """
     em = imgui.get_font_size()
     _card("##recovery", left, top, width, 36 * em)
-    imgui.text_colored(imgui.ImVec4(*ACCENT), "Unsaved work")
-    imgui.same_line()
-    imgui.text_disabled("Facepin was left before this was saved.")
     asked: Request | None = None
     row_height = imgui.get_frame_height() + imgui.get_style().item_spacing.y
     padding = imgui.get_style().frame_padding.x
     buttons = [imgui.calc_text_size(word).x + 2 * padding for word in ("Restore", "Really discard")]
     gap = imgui.get_style().item_spacing.x
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(imgui.ImVec4(*ACCENT), "Unsaved work")
+    imgui.same_line()
+    imgui.text_disabled("Facepin was left before this was saved.")
+    imgui.same_line(imgui.get_window_width() - buttons[1] - imgui.get_style().window_padding.x)
+    if imgui.button("Later", imgui.ImVec2(buttons[1], 0)):
+        view.shown, view.doomed = False, None
+    imgui.set_item_tooltip(f"It stays where it is: File, {Command.UNSAVED_WORK.title}")
     imgui.begin_child("rows", imgui.ImVec2(0, min(len(rows), MOST_ROWS) * row_height))
     for row in rows:
         imgui.push_id(str(row.draft))
@@ -80,10 +85,6 @@ def recovery_card(
             view.doomed = row.draft
         imgui.pop_id()
     imgui.end_child()
-    imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + imgui.get_content_region_avail().x - buttons[1])
-    if imgui.button("Later", imgui.ImVec2(buttons[1], 0)):
-        view.shown, view.doomed = False, None
-    imgui.set_item_tooltip(f"It stays where it is: File, {Command.UNSAVED_WORK.title}")
     imgui.end()
     return asked
 
@@ -102,6 +103,7 @@ def lost_card(line: str, left: float, top: float, width: float) -> Command | Can
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*WARNING))
     imgui.text_wrapped(line)
     imgui.pop_style_color()
+    imgui.align_text_to_frame_padding()
     imgui.text_disabled("Drop the rig on the window, or")
     imgui.same_line()
     asked: Command | CancelLoading | None = None

@@ -7,7 +7,8 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -54,9 +55,13 @@ def workshop() -> Iterator[subprocess.Popen[str]]:
     program.communicate()
 
 
+small = partial(running, size=(480, 320))
+"""Runs the program in a small window: a picture of it takes less time."""
+
+
 def step_of(scene: Scene) -> float:
     """The number of the gesture that a scene holds."""
-    return scene.panes[0].weights.get("shape0", 0.0)
+    return scene.panes[scene.active].weights.get("shape0", 0.0)
 
 
 def gone(process: int) -> bool:
@@ -69,6 +74,15 @@ def gone(process: int) -> bool:
 
 def frames(app: App, count: int = 3) -> None:
     app.step(PointerMoved(5, 5), frames=count)
+
+
+def wait_for(app: App, condition: Callable[[], bool], seconds: float = 20.0) -> None:
+    """Draw frames until something is so that another thread sees to."""
+    until = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < until, "it never came to pass"
+        time.sleep(0.002)
+        app.step()
 
 
 def set_first(app: App, weight: float) -> None:
@@ -123,7 +137,7 @@ def test_killed_at_random_moments_at_most_the_gesture_in_hand_is_lost(
         for leftover in left:
             leftover.draft.release()
         if left and trial % (KILLS // STARTS) == 0:
-            with running(size=(320, 240), settings_folder=settings) as app:
+            with small(rig, settings_folder=settings) as app:
                 (leftover,) = app.desk.keeper.left
                 app.ask(RestoreWork(leftover.draft.path))
                 opened(app)
@@ -134,7 +148,7 @@ def test_killed_at_random_moments_at_most_the_gesture_in_hand_is_lost(
 
 def test_a_scene_is_saved_and_opened_by_keys_drop_menu_and_command_line(rig: Path, tmp_path: Path) -> None:
     settings, scene = tmp_path / "settings", tmp_path / "one.facepin"
-    with running(rig, settings_folder=settings) as app:
+    with small(rig, settings_folder=settings) as app:
         app.ask(AddPane(choose("tikhonov")))
         app.desk.view.linked = False
         app.desk.view.panes[0].wireframe = True
@@ -163,7 +177,7 @@ def test_a_scene_is_saved_and_opened_by_keys_drop_menu_and_command_line(rig: Pat
         answer(app, Command.SAVE_AS, tmp_path / "four.json")
         assert ".facepin" in app.desk.message
         assert not (tmp_path / "four.json").exists()
-    with running(scene, settings_folder=settings) as app:
+    with small(scene, settings_folder=settings) as app:
         assert not app.desk.keeper.left
         assert app.desk.title == "one.facepin - sheet - Facepin"
         for pane, before in zip(app.session.panes, work.panes, strict=True):
@@ -188,12 +202,12 @@ def test_a_scene_is_saved_and_opened_by_keys_drop_menu_and_command_line(rig: Pat
 
 def test_quitting_asks_nothing_and_the_next_start_offers_what_was_left(rig: Path, tmp_path: Path) -> None:
     scene = tmp_path / "one.facepin"
-    with running(rig, settings_folder=tmp_path) as app:
+    with small(rig, settings_folder=tmp_path) as app:
         answer(app, Command.SAVE_AS, scene)
         set_first(app, 0.625)
         with pytest.raises(StopIteration):
             app.step(CloseRequested(), frames=2)
-    with running(settings_folder=tmp_path) as app:
+    with small(rig, settings_folder=tmp_path) as app:
         assert app.desk.view.recovery.shown
         (leftover,) = app.desk.keeper.left
         assert leftover.scene.of == scene
@@ -204,12 +218,12 @@ def test_quitting_asks_nothing_and_the_next_start_offers_what_was_left(rig: Path
         assert not app.desk.keeper.left
         app.key("s", control=True)
         assert step_of(read_scene(scene)) == 0.625
-    with running(settings_folder=tmp_path) as app:
+    with small(rig, settings_folder=tmp_path) as app:
         assert not app.desk.keeper.left
 
 
 def test_another_rig_leaves_the_work_behind_and_it_can_be_discarded(rig: Path, tmp_path: Path) -> None:
-    with running(rig, settings_folder=tmp_path) as app:
+    with small(rig, settings_folder=tmp_path) as app:
         set_first(app, 0.5)
         app.ask(Command.OPEN_BUILTIN)
         opened(app)
@@ -233,7 +247,7 @@ def test_another_rig_leaves_the_work_behind_and_it_can_be_discarded(rig: Path, t
 def test_a_fault_in_a_frame_keeps_the_work(
     rig: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with pytest.raises(ZeroDivisionError), running(rig, settings_folder=tmp_path) as app:
+    with pytest.raises(ZeroDivisionError), small(rig, settings_folder=tmp_path) as app:
         app.desk.apply(Edit("Set", True, weights=np.full(4, 0.125)))
         monkeypatch.setattr("facepin.interface.panels", lambda *_: 1 // 0)
         app.step(PointerMoved(5, 5))
@@ -244,7 +258,7 @@ def test_a_fault_in_a_frame_keeps_the_work(
 def test_a_scene_whose_rig_is_gone_waits_until_it_is_shown(rig: Path, tmp_path: Path) -> None:
     moved, scene = tmp_path / "moved.npz", tmp_path / "one.facepin"
     moved.write_bytes(rig.read_bytes())
-    with running(moved) as app:
+    with small(moved) as app:
         set_first(app, 0.5)
         answer(app, Command.SAVE_AS, scene)
     moved.rename(tmp_path / "elsewhere.npz")
@@ -252,7 +266,7 @@ def test_a_scene_whose_rig_is_gone_waits_until_it_is_shown(rig: Path, tmp_path: 
         lambda app: app.step(FilesDropped((tmp_path / "elsewhere.npz",)), frames=2),
         lambda app: answer(app, Command.LOCATE_RIG, tmp_path / "elsewhere.npz"),
     ):
-        with running(scene, wait=False) as app:
+        with small(scene, wait=False) as app:
             frames(app)
             assert app.desk.stage is None
             assert f"one.facepin: its rig moved was not found, looked for {moved}" in app.desk.message
@@ -279,13 +293,13 @@ def test_a_scene_that_cannot_be_read_leaves_everything_in_place(
     rig: Path, tmp_path: Path, content: bytes, said: str
 ) -> None:
     (tmp_path / "bad.facepin").write_bytes(content)
-    with running(rig) as app:
+    with small(rig) as app:
         work = app.session.work
         app.step(FilesDropped((tmp_path / "bad.facepin",)), frames=2)
         assert said in app.desk.message
         assert "bad.facepin" in app.desk.message
         assert app.session.work is work
-    with running(tmp_path / "bad.facepin", wait=False) as app:
+    with small(tmp_path / "bad.facepin", wait=False) as app:
         frames(app)
         assert said in app.desk.message
 
@@ -295,18 +309,18 @@ def test_broken_preferences_layout_and_drafts_are_set_aside_and_said(rig: Path, 
     (tmp_path / "autosave").mkdir()
     for name in ("preferences.json", "layout.ini", "autosave/1234.facepin"):
         (tmp_path / name).write_bytes(odd)
-        with running(rig, size=(320, 240), settings_folder=tmp_path) as app:
+        with small(rig, settings_folder=tmp_path) as app:
             assert app.desk.is_error
             assert f"set aside as {Path(name).name}.broken" in app.desk.message
             assert app.session.rig.name == "sheet"
         assert (tmp_path / f"{name}.broken").read_bytes() == odd
-    with running(rig, size=(320, 240), settings_folder=tmp_path) as app:
+    with small(rig, settings_folder=tmp_path) as app:
         assert not app.desk.is_error
 
 
 def test_no_layout_stops_the_start(rig: Path, tmp_path: Path) -> None:
     """A layout torn anywhere, or with wild numbers, is refused or read over."""
-    with running(rig, size=(320, 240), settings_folder=tmp_path) as app:
+    with small(rig, settings_folder=tmp_path) as app:
         frames(app)
     whole = (tmp_path / "layout.ini").read_text()
     assert "[Docking]" in whole
@@ -317,7 +331,7 @@ def test_no_layout_stops_the_start(rig: Path, tmp_path: Path) -> None:
     ]
     for text in texts:
         (tmp_path / "layout.ini").write_text(text)
-        with running(rig, size=(320, 240), settings_folder=tmp_path) as app:
+        with small(rig, settings_folder=tmp_path) as app:
             app.ask(Command.RESET_LAYOUT)
             frames(app)
             assert app.frame.drawn
@@ -329,12 +343,12 @@ def test_on_a_full_disk_the_work_stays_and_quitting_warns_once(
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    with running(rig, settings_folder=tmp_path) as app:
+    with small(rig, settings_folder=tmp_path) as app:
         app.desk.keeper._saver._retry = 0.01
         with monkeypatch.context() as disk:
             disk.setattr(Path, "write_bytes", full)
             set_first(app, 0.5)
-            app.until(lambda: bool(app.desk.keeper.complaint))
+            wait_for(app, lambda: bool(app.desk.keeper.complaint))
             frames(app)
             app.ask(Command.QUIT)
             assert not app.desk.closing
@@ -348,7 +362,7 @@ def test_on_a_full_disk_the_work_stays_and_quitting_warns_once(
             assert "stays open" in app.desk.message
             assert app.session.rig.name == "sheet"
             assert app.session.pose.weights[0] == 0.5
-        app.until(lambda: not app.desk.keeper.complaint)
+        wait_for(app, lambda: not app.desk.keeper.complaint)
         app.ask(Command.QUIT)
         with pytest.raises(StopIteration):
             app.step(frames=2)
@@ -362,13 +376,13 @@ def test_what_can_be_kept_nowhere_is_said_at_the_end(
     (tmp_path / "autosave").touch()  # a file where the folder should be
     with (
         pytest.raises(FacepinError, match="could not be kept"),
-        running(rig, settings_folder=tmp_path) as app,
+        small(rig, settings_folder=tmp_path) as app,
     ):
         set_first(app, 0.5)
 
 
 def test_the_history_window_goes_to_any_step(rig: Path) -> None:
-    with running(rig) as app:
+    with small(rig) as app:
         for step in range(1, 6):
             set_first(app, step / 10)
         app.key("z", control=True, alt=True)

@@ -12,6 +12,7 @@ from facepin.core.camera import Camera, Viewport
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
+from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
@@ -150,6 +151,7 @@ class Stage:
         scale: float,
         *,
         fine: bool,
+        beside: Colour,
     ) -> None:
         """Draw every pane with its pins.
 
@@ -167,17 +169,19 @@ class Stage:
             Pixels per pixel of a 1x screen.
         fine : bool
             Slower where a processor does the drawing.
+        beside : (r, g, b, a)
+            Colour of what is outside of the panes.
         """
         if fine or canvas.samples:
             self._still.forget()
-            self._scene.background.draw(canvas, sights)
+            self._scene.background.draw(canvas, sights, beside)
             part: Part = "all"
         else:
             faces = [None if view.heat else self.mesh(at) for at, view in enumerate(overlays[: len(sights)])]
-            self._still.draw(canvas, sights, faces)
+            self._still.draw(canvas, sights, faces, beside)
             part = "moving"
         for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
-            framing = frame(camera, viewport, canvas.size[1])
+            framing = frame(camera, viewport)
             over = self.overlays(at, overlays[at])
             draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, part=part, scale=scale)
             markers = _markers(pane.pose, self.positions(at), tool)

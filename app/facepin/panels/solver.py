@@ -24,16 +24,17 @@ HUGE = 10.0
 def solver_panel(rig: Rig, pane: Pane, at: int, view: PaneView) -> UseSolver | None:
     """Draw the solver of pane number `at`; return what the user changes in this frame, or None.
 
-    `view` is told whether the pane should show how far a radius reaches.
+    `view` is told whether the pane should show how far a radius reaches, and remembers the solver.
     """
     choice = pane.choice
     view.reach = False
+    view.choices[choice.kind.key] = choice
     request = None
     imgui.set_next_item_width(-1)
     if imgui.begin_combo("##solver", choice.kind.title):
         for key, kind in SOLVERS.items():
             if imgui.selectable(kind.title, kind is choice.kind)[0] and kind is not choice.kind:
-                request = UseSolver(at, choose(key, keep_limits=choice.keep_limits))
+                request = UseSolver(at, view.choices.get(key) or choose(key, keep_limits=choice.keep_limits))
             imgui.set_item_tooltip(kind.summary)
         imgui.end_combo()
     _sentence(choice.kind.summary)

@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 
 from facepin.core.pose import Freedom
 from facepin.panels.weights import WeightsView
+from facepin.session.solving import SolverChoice
 
 Quality = Literal["auto", "always", "off"]
 
@@ -22,6 +23,8 @@ class PaneView:
     ghost: Ghost = "none"
     """Another pose that shines through."""
 
+    choices: dict[str, SolverChoice] = field(default_factory=dict)
+    """Solvers that were in use here, by key: coming back to one finds its settings."""
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 

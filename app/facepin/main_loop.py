@@ -22,7 +22,7 @@ from facepin.options import BUILTIN
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Command
-from facepin.panels.theme import PANEL, apply_theme
+from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.resources import resource
 from facepin.routing import Router
@@ -118,6 +118,10 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
     preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
     preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
     view.freedom, view.quality, view.ui_scale = preferences.freedom, preferences.quality, preferences.ui_scale
+    view.theme_name, view.habit, view.lately = preferences.theme, preferences.habit, preferences.lately
+    view.guide.step = preferences.guide
+    # Nobody is shown moving pictures at every start because nothing is remembered.
+    view.guide.lively = preferences_file is not None
     _set_up_imgui(start.settings_folder)
     software = _is_software(window.ctx)
     router = Router()
@@ -131,6 +135,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
     viewports: tuple[Viewport, ...] = (viewport,)
     desk.viewport = viewport
     scale: float | None = None
+    theme: Theme | None = None
     drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
     look_again: float | None = None
@@ -139,7 +144,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        busy = desk.loading is not None or desk.dialog is not None
+        busy = desk.loading is not None or desk.dialog is not None or view.guide.moving(began)
         settling = SETTLE if events or busy else settling - 1
         if 0 in window.size:
             # Minimised: there is nothing to draw on, and imgui would fold its panels up.
@@ -167,14 +172,17 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         if window.scale * view.ui_scale / window.pixel_ratio != scale:
             reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
             scale = window.scale * view.ui_scale / window.pixel_ratio
-            apply_theme(scale)
+            theme = None
+        if view.theme is not theme:
+            theme = view.theme
+            apply_theme(theme, scale)
         desk.poll()
         desk.sync()
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.
         asked = router.take(events, desk, viewports, window.scale)
-        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds)
+        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         reset_layout = False
@@ -198,12 +206,12 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
                     desk.tool,
                     window.scale,
                     fine=canvas is smooth,
-                    beside=PANEL,
+                    beside=theme.panel,
                 )
                 drawn = wanted
             window.show(canvas.flat())
         else:
-            window.clear(PANEL)
+            window.clear(theme.panel)
         window.end_frame()
         seconds = perf_counter() - began
 
@@ -227,7 +235,17 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
 def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
     """Return what to remember for the next run."""
     view = desk.view
-    found = replace(preferences, freedom=view.freedom, quality=view.quality, ui_scale=view.ui_scale, kept="")
+    found = replace(
+        preferences,
+        freedom=view.freedom,
+        quality=view.quality,
+        ui_scale=view.ui_scale,
+        theme=view.theme_name,
+        habit=view.habit,
+        guide=view.guide.step,
+        lately=view.lately,
+        kept="",
+    )
     if desk.opened is not None:
         found = found.opened(desk.opened)
     if desk.session is not None:
@@ -267,4 +285,5 @@ def _picture_key(
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
     hands = (tool.selected, tool.hovered, tool.held)
-    return (stage, stage.refined, work, canvas, size, viewports, tuple(desk.cameras), overlays, hands)
+    seen = (canvas, size, viewports, tuple(desk.cameras), desk.view.theme)
+    return (stage, stage.refined, work, *seen, overlays, hands)

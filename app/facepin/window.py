@@ -42,6 +42,7 @@ _KEYS = {
     glfw.KEY_DELETE: "delete",
     glfw.KEY_BACKSPACE: "backspace",
     glfw.KEY_HOME: "home",
+    glfw.KEY_KP_DECIMAL: "numpad .",
     **{glfw.KEY_F1 + i: f"f{i + 1}" for i in range(12)},
     **{glfw.KEY_KP_0 + i: f"numpad {i}" for i in range(10)},
     **{glfw.KEY_0 + i: str(i) for i in range(10)},
@@ -231,7 +232,7 @@ class Window:
         glfw.set_window_focus_callback(self._handle, self._on_stir)
         glfw.set_framebuffer_size_callback(self._handle, self._on_stir)
         glfw.set_window_content_scale_callback(self._handle, self._on_stir)
-        glfw.set_char_callback(self._handle, self._on_stir)
+        glfw.set_char_callback(self._handle, self._on_char)
 
     def _modifiers(self) -> Modifiers:
         def held(*keys: int) -> bool:
@@ -277,6 +278,10 @@ class Window:
 
     def _on_drop(self, _: object, paths: list[str]) -> None:
         self._events.append(FilesDropped(tuple(Path(path) for path in paths)))
+
+    def _on_char(self, _: object, code: int) -> None:
+        # Where this key is, and whether it needs Shift, is the keyboard's own affair.
+        self._events.append(KeyPressed("?") if chr(code) == "?" else Stirred())
 
     def _on_stir(self, *_: object) -> None:
         self._events.append(Stirred())

@@ -12,7 +12,7 @@ from facepin.core.measures import out_of_range
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import UseSolver
-from facepin.panels.theme import WARNING
+from facepin.panels.theme import Theme
 from facepin.panels.view import PaneView
 from facepin.session.session import Pane
 from facepin.session.solving import Solved, choose
@@ -22,7 +22,9 @@ HUGE = 10.0
 """A weight beyond this is worth a warning: the face is off the screen."""
 
 
-def solver_panel(rig: Rig, control: ShapeControl, pane: Pane, at: int, view: PaneView) -> UseSolver | None:
+def solver_panel(
+    rig: Rig, control: ShapeControl, pane: Pane, at: int, view: PaneView, theme: Theme
+) -> UseSolver | None:
     """Draw the solver of pane number `at`; return what the user changes in this frame, or None.
 
     `view` is told whether the pane should show how far a radius reaches, and remembers the solver.
@@ -60,7 +62,7 @@ def solver_panel(rig: Rig, control: ShapeControl, pane: Pane, at: int, view: Pan
         if changed:
             request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
     imgui.separator()
-    _answer(rig, control, pane.pose, pane.solved)
+    _answer(rig, control, pane.pose, pane.solved, theme)
     return request
 
 
@@ -94,7 +96,7 @@ def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any
     return changed, new
 
 
-def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved | None) -> None:
+def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved | None, theme: Theme) -> None:
     """Draw what the last solve was like."""
     if solved is None:
         _sentence("Drag a point of the face: the solver's figures appear here.")
@@ -116,7 +118,7 @@ def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved | None) 
             imgui.text_disabled(name)
             imgui.table_next_column()
             if (name == "out of range" and outside) or name == "largest weight":
-                imgui.text_colored(imgui.ImVec4(*WARNING), value)
+                imgui.text_colored(imgui.ImVec4(*theme.warning), value)
             else:
                 imgui.text(value)
         imgui.end_table()

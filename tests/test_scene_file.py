@@ -34,6 +34,9 @@ def worked() -> Session:
     session = Session(RIG, [choose("tikhonov"), choose("hybrid", keep_limits=True)])
     session.apply(Edit("Set", True, weights=np.array([0.25, 1 / 3, 0, -1.5])))
     session.apply(Edit("Drag", True, (at(30), at(41, freedom="screen", stiffness=7.5)), solve=True))
+    limits = session.control.limits * [[-0.5, 2.0]] - [[0.125, 0]]
+    locked, muted = np.arange(4) == 3, np.arange(4) == 1
+    session.set_control("Lock", replace(session.control, limits=limits, locked=locked, muted=muted))
     session.set_reference(np.array([0, 0.7, 0, 0.1]))
     session.active = 1
     return session
@@ -67,6 +70,8 @@ def test_a_scene_comes_back_bit_for_bit(tmp_path: Path) -> None:
     again = Session.resumed(RIG, found.work, found.active)
     same_work(session, again)
     np.testing.assert_array_equal(again.work.reference, session.work.reference)
+    for name in ("limits", "locked", "muted", "solo"):
+        np.testing.assert_array_equal(getattr(again.control, name), getattr(session.control, name))
     assert (again.active, found.linked, found.report) == (1, False, "")
     assert found.cameras == snapshot(session).cameras
     assert [view.key for view in found.views] == [(False, True, "reference", False)] * 2

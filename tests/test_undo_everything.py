@@ -104,8 +104,16 @@ MAKERS: dict[type, Maker] = {
 }
 """How a request with something to say is made up."""
 
-ELSEWHERE = {requests.OpenPath, requests.CancelLoading, requests.RestoreWork, requests.DiscardWork}
-"""Requests about files, which leave the session alone or begin another (a pose that is opened is an edit)."""
+ELSEWHERE = {
+    requests.OpenPath,
+    requests.CancelLoading,
+    requests.RestoreWork,
+    requests.DiscardWork,
+    requests.Choose,
+}
+"""Requests about files and settings, which leave the session alone or begin another.  (A pose that is opened
+is an edit.)
+"""
 
 
 def test_every_request_is_tried_here() -> None:
@@ -115,7 +123,13 @@ def test_every_request_is_tried_here() -> None:
 def random_edit(random: np.random.Generator, session: Session) -> None:
     """What hands and sliders do: a gesture of some steps, which ends, is given up, or goes on."""
     for final in (*[False] * random.integers(0, 3), bool(random.integers(4))):
-        match random.integers(4):
+        match random.integers(5):
+            case 4:
+                control = session.control
+                locked, muted, solo = (random.integers(0, 4, RIG.shape_count) == 0 for _ in range(3))
+                limits = control.limits + random.uniform(-0.1, 0.1, (RIG.shape_count, 1))
+                control = dataclasses.replace(control, limits=limits, locked=locked, muted=muted, solo=solo)
+                session.set_control("Control", control, final=final)
             case 0:
                 session.apply(Edit("Set", final, weights=random.uniform(-0.5, 1.5, RIG.shape_count)))
             case 1:
@@ -133,7 +147,9 @@ def random_edit(random: np.random.Generator, session: Session) -> None:
 def state(session: Session) -> tuple[Work, list[object]]:
     """The work, and everything in it by value: nothing may change behind a snapshot either."""
     work = session.committed
+    control = work.control
     values: list[object] = [None if work.reference is None else work.reference.tobytes()]
+    values += [flags.tobytes() for flags in (control.limits, control.locked, control.muted, control.solo)]
     for pane in work.panes:
         began = None if pane.began is None else (pane.began.weights.tobytes(), pane.began.pins)
         values += [pane.choice, pane.pose.weights.tobytes(), pane.pose.pins, pane.hand.tobytes(), began]

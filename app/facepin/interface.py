@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from time import perf_counter
 
 from imgui_bundle import imgui
 
@@ -10,20 +11,25 @@ from facepin.core.pose import Pose
 from facepin.desk import Desk
 from facepin.files.drafts import Leftover
 from facepin.panels import layout
+from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
+from facepin.panels.guide import Hand, draw_guide
 from facepin.panels.history import history_window
+from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
 from facepin.panels.menu import menu_bar, pin_menu
+from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.recovery import WorkRow, lost_card, recovery_card
 from facepin.panels.requests import Request
 from facepin.panels.solver import solver_panel
-from facepin.panels.status import hint, loading_card, status_line
+from facepin.panels.status import loading_card, status_line
 from facepin.panels.theme import pane_colours
 from facepin.panels.weights import weights_panel
+from facepin.session.session import Session
 
 
-def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
+def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> list[Request]:
     """Draw menu bar and status line, and what floats over everything.
 
     Parameters
@@ -34,9 +40,12 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
         Rigs opened lately.
     seconds : float
         Time of the last frame.
+    scale : float
+        imgui units per pixel of a 1x screen.
     """
-    session = desk.session
-    asked = [menu_bar(desk.view, recent, session, has_leftovers=bool(desk.keeper.left))]
+    session, view = desk.session, desk.view
+    left = bool(desk.keeper.left)
+    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=left)]
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
@@ -46,6 +55,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
         rig,
         timing,
         desk.message,
+        view.theme,
         is_error=desk.is_error,
         warnings=rig.warnings if rig else (),
         unkept=desk.keeper.complaint,
@@ -56,6 +66,11 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
         desk.dialog.draw()
     if session is not None:
         asked.append(_pin_popup(desk, session.pose))
+    asked.append(palette(view, session, recent, scale))
+    if view.keyboard:
+        view.keyboard = keyboard_map(view.habit, view.theme, scale)
+    if view.about:
+        view.about = about_window(desk.graphics, view.theme, scale)
     return [request for request in asked if request is not None]
 
 
@@ -69,20 +84,29 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     scale : float
         imgui units per pixel of a 1x screen.
     """
-    session = desk.session
+    session, theme = desk.session, desk.view.theme
     request = edit = None
     layout.without_background(layout.SOLVER)
     if imgui.begin(layout.SOLVER)[0] and session is not None:
-        request = solver_panel(session.rig, session.pane, session.active, desk.view.panes[session.active])
+        request = solver_panel(
+            session.rig,
+            session.control,
+            session.pane,
+            session.active,
+            desk.view.panes[session.active],
+            theme,
+        )
     imgui.end()
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
         edit = weights_panel(
             session.rig,
+            session.control,
             session.panes,
             session.active,
             desk.view.weights,
             scale,
+            theme,
             in_gesture=session.in_gesture,
         )
     imgui.end()
@@ -90,7 +114,9 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         desk.apply(edit)
     chart: Request | None = None
     if desk.view.chart and session is not None:
-        desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
+        desk.view.chart, chart = chart_window(
+            session.rig, session.panes, session.work.reference, scale, theme
+        )
     return [asked for asked in (request, chart) if asked is not None]
 
 
@@ -101,13 +127,14 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
     session, view = desk.session, desk.view
     asked: list[Request | None] = []
     if view.history and session is not None:
-        view.history, step = history_window(session.rig, session.steps, session.step, *place, scale)
-        asked.append(step)
+        steps, step = session.steps, session.step
+        view.history, wanted = history_window(session.rig, steps, step, *place, scale, view.theme)
+        asked.append(wanted)
     if desk.lost is not None:
-        asked.append(lost_card(desk.lost.line, *place, width))
+        asked.append(lost_card(desk.lost.line, *place, width, view.theme))
     elif desk.keeper.left and view.recovery.shown:
         rows = [_work_row(leftover) for leftover in desk.keeper.left]
-        asked.append(recovery_card(rows, view.recovery, *place, width))
+        asked.append(recovery_card(rows, view.recovery, *place, width, view.theme))
     return [request for request in asked if request is not None]
 
 
@@ -124,12 +151,12 @@ def over_picture(
     desk: Desk, viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
 ) -> list[Request]:
     """Draw what stands over the picture: a title for each of several panes, a hint over an untouched face."""
-    session, stage = desk.session, desk.stage
+    session, stage, theme = desk.session, desk.stage, desk.view.theme
     if session is None or stage is None:
         return []
     asked: list[Request] = []
     if len(viewports) > 1:
-        colours = pane_colours([pane.choice.kind.key for pane in session.panes])
+        colours = pane_colours(theme, [pane.choice.kind.key for pane in session.panes])
         for at, (pane, place) in enumerate(zip(session.panes, viewports, strict=False)):
             asked += pane_title(
                 at,
@@ -139,16 +166,35 @@ def over_picture(
                 place,
                 pixel_ratio,
                 scale,
+                theme,
+                habit=desk.view.habit,
                 colour=colours[at],
                 active=at == session.active,
                 has_reference=session.work.reference is not None,
             )
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.heat:
-            heat_legend(session.rig.height, place, pixel_ratio, scale)
-    if not session.pose.pins and not session.pose.weights.any():
-        hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
+            heat_legend(session.rig.height, place, pixel_ratio, scale, theme)
+    _first_steps(desk, session, viewport, pixel_ratio, scale)
     return asked
+
+
+def _first_steps(desk: Desk, session: Session, viewport: Viewport, pixel_ratio: float, scale: float) -> None:
+    """Lead a newcomer on, until the first steps are done."""
+    view = desk.view
+    if view.guide.over:
+        return
+    hand = Hand(
+        pins=bool(session.pose.pins),
+        posed=bool(session.pose.weights.any()),
+        pin_menu=view.pin_menu is not None,
+        undone=session.redo_label is not None,
+        searched=view.palette is not None or view.keyboard,
+        work=session.committed,
+    )
+    now = perf_counter()
+    view.guide.watch(hand, now)
+    draw_guide(view.guide, now, view.habit, viewport, pixel_ratio, scale)
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:

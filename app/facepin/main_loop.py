@@ -23,7 +23,7 @@ from facepin.options import BUILTIN
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Command
-from facepin.panels.theme import PANEL, apply_theme
+from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.resources import resource
 from facepin.routing import Router
@@ -96,7 +96,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         At the end, when there is such work and it could not be kept.
     """
     view = View()
-    rough, smooth = Canvas(window.ctx, 0), Canvas(window.ctx, 4)
+    rough, smooth = Canvas(window.ctx, 0, window.texture), Canvas(window.ctx, 4, window.texture)
     desk = Desk(
         window.ctx,
         view,
@@ -129,6 +129,10 @@ def _loop(
     preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
     preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
     view.freedom, view.quality, view.ui_scale = preferences.freedom, preferences.quality, preferences.ui_scale
+    view.theme_name, view.habit, view.lately = preferences.theme, preferences.habit, preferences.lately
+    view.guide.step = preferences.guide
+    # Nobody is shown moving pictures at every start because nothing is remembered.
+    view.guide.lively = preferences_file is not None
     software = _is_software(window.ctx)
     router = Router()
     view.recovery.shown = bool(desk.keeper.left)
@@ -142,6 +146,7 @@ def _loop(
     viewports: tuple[Viewport, ...] = (viewport,)
     desk.viewport = viewport
     scale: float | None = None
+    theme: Theme | None = None
     drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
     unkept = ""
@@ -151,7 +156,7 @@ def _loop(
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        busy = desk.loading is not None or desk.dialog is not None
+        busy = desk.loading is not None or desk.dialog is not None or view.guide.moving(began)
         settling = SETTLE if events or busy or desk.keeper.complaint != unkept else settling - 1
         unkept = desk.keeper.complaint
         if 0 in window.size:
@@ -180,14 +185,17 @@ def _loop(
         if window.scale * view.ui_scale / window.pixel_ratio != scale:
             reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
             scale = window.scale * view.ui_scale / window.pixel_ratio
-            apply_theme(scale)
+            theme = None
+        if view.theme is not theme:
+            theme = view.theme
+            apply_theme(theme, scale)
         desk.poll()
         desk.sync()
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.
         asked = router.take(events, desk, viewports, window.scale)
-        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds)
+        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         reset_layout = False
@@ -212,12 +220,12 @@ def _loop(
                     desk.tool,
                     window.scale,
                     fine=canvas is smooth,
+                    beside=theme.panel,
                 )
                 drawn = wanted
-            window.show(canvas.overlay, viewport)
-            window.fill_beside(PANEL, viewport)
+            window.show(canvas.flat())
         else:
-            window.clear(PANEL)
+            window.clear(theme.panel)
         window.end_frame()
         seconds = perf_counter() - began
 
@@ -243,7 +251,16 @@ def _loop(
 def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
     """Return what to remember for the next run."""
     view = desk.view
-    found = replace(preferences, freedom=view.freedom, quality=view.quality, ui_scale=view.ui_scale)
+    found = replace(
+        preferences,
+        freedom=view.freedom,
+        quality=view.quality,
+        ui_scale=view.ui_scale,
+        theme=view.theme_name,
+        habit=view.habit,
+        guide=view.guide.step,
+        lately=view.lately,
+    )
     if desk.opened is not None:
         found = found.opened(desk.opened)
     if desk.session is not None:
@@ -276,4 +293,5 @@ def _picture_key(
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
     hands = (tool.selected, tool.hovered, tool.held)
-    return (stage, stage.refined, work, canvas, size, viewports, tuple(desk.cameras), overlays, hands)
+    seen = (canvas, size, viewports, tuple(desk.cameras), desk.view.theme)
+    return (stage, stage.refined, work, *seen, overlays, hands)

@@ -9,6 +9,7 @@ import numpy as np
 
 from facepin.core.arrays import Floats, frozen
 from facepin.core.camera import Camera
+from facepin.core.control import Flags, ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.names import listed
 from facepin.core.pose import Pose
@@ -16,7 +17,7 @@ from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.files.checked_json import JsonObject
 from facepin.files.pins_file import parse_pins, pins_as_json
-from facepin.files.scene_file import RigReference, Scene, ScenePane, Weights
+from facepin.files.scene_file import RigReference, Scene, SceneControl, ScenePane, Weights
 from facepin.files.shape_spelling import match_shapes
 from facepin.panels.view import Ghost, PaneView
 from facepin.session.session import MOST_PANES, Pane, Work
@@ -70,7 +71,8 @@ class Resumed:
 
 def shown_over(view: PaneView) -> dict[str, Plain]:
     """Return what a pane shows over its face as plain values by name."""
-    return {field.name: getattr(view, field.name) for field in fields(view) if field.name != "reach"}
+    values = {field.name: getattr(view, field.name) for field in fields(view)}
+    return {name: value for name, value in values.items() if name != "reach" and isinstance(value, Plain)}
 
 
 def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
@@ -104,6 +106,7 @@ def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
         ),
         tuple(map(in_scene, work.panes, snapshot.cameras, snapshot.shown)),
         tuple(pins_as_json(work.panes[0].pose.pins)),
+        _control_of(work.control, rig),
         None if work.reference is None else named(work.reference),
         snapshot.active,
         snapshot.linked,
@@ -125,6 +128,7 @@ def resume(scene: Scene, rig: Rig) -> Resumed:
     same = scene.rig.fingerprint == rig.fingerprint
     report = [] if same else [f"{rig.name} is not as it was when the scene was saved"]
     weights = _Placing(scene.rig, rig)
+    control = weights.control(scene.control)
     known = [pin for pin in scene.pins if not _beyond(pin, rig)]
     pins = parse_pins(JsonObject({"pins": known}, "the scene:"), rig)
     if beyond := len(scene.pins) - len(known):
@@ -136,7 +140,7 @@ def resume(scene: Scene, rig: Rig) -> Resumed:
         hand = pose.weights if saved.hand == saved.weights else weights.place(saved.hand)
         began = None if saved.began is None else Pose(weights.place(saved.began), pins)
         if not same and number == scene.active:
-            pins = snapped(rig, pose).pins  # the goals were where the shapes brought another face
+            pins = snapped(rig, pose, control).pins  # the goals were where another face's vertices came
         panes.append(Pane(choice, pose, hand, began, number=number))
         report += remark
     shared = tuple(
@@ -145,7 +149,7 @@ def resume(scene: Scene, rig: Rig) -> Resumed:
     )
     reference = None if scene.reference is None else weights.place(scene.reference)
     return Resumed(
-        Work(shared, reference),
+        Work(shared, control, reference),
         scene.active,
         tuple(pane.camera if same else None for pane in scene.panes),
         tuple(_view(pane.shown) for pane in scene.panes),
@@ -168,17 +172,37 @@ class _Placing:
     def place(self, weights: Weights) -> Floats:
         """Return the weights (k,) of the rig, read-only."""
         values = np.zeros(self._rig.shape_count)
-        unheard = [name for name in weights if name not in self._places]
-        self._places |= zip(unheard, match_shapes(unheard, self._rig.shape_names), strict=True)
         for name, weight in weights.items():
-            at = self._places[name]
+            at = self._find(name)
             if at is None:
-                self._missing[name] = None
                 continue
             if abs(weight) > LARGEST_WEIGHT:
                 self._wild[name] = None
             values[at] = min(max(weight, -LARGEST_WEIGHT), LARGEST_WEIGHT)
         return frozen(values, np.float64)
+
+    def control(self, saved: SceneControl) -> ShapeControl:
+        """Return what holds for the shapes of the rig."""
+        control = ShapeControl.of(self._rig)
+        limits = control.limits.copy()
+        for name, allowed in saved.limits.items():
+            if (at := self._find(name)) is not None:
+                limits[at] = np.clip(allowed, -LARGEST_WEIGHT, LARGEST_WEIGHT)
+
+        def flags(names: Sequence[str]) -> Flags:
+            found = np.zeros(self._rig.shape_count, np.bool_)
+            found[[at for name in names if (at := self._find(name)) is not None]] = True
+            return found
+
+        return ShapeControl(limits, flags(saved.locked), flags(saved.muted), flags(saved.solo))
+
+    def _find(self, name: str) -> int | None:
+        if name not in self._places:
+            (self._places[name],) = match_shapes([name], self._rig.shape_names)
+        at = self._places[name]
+        if at is None:
+            self._missing[name] = None
+        return at
 
     def report(self) -> list[str]:
         """Return what could not be placed as it was, a line each."""
@@ -188,6 +212,17 @@ class _Placing:
         if self._wild:
             lines.append(f"weights beyond {LARGEST_WEIGHT:.0e} are cut down: {listed(list(self._wild))}")
         return lines
+
+
+def _control_of(control: ShapeControl, rig: Rig) -> SceneControl:
+    """Return by name what holds for the shapes."""
+
+    def named(flags: Flags) -> tuple[str, ...]:
+        return tuple(rig.shape_names[j] for j in np.flatnonzero(flags))
+
+    changed = np.flatnonzero((control.limits != rig.limits).any(axis=1)).tolist()
+    limits = {rig.shape_names[j]: (float(control.limits[j, 0]), float(control.limits[j, 1])) for j in changed}
+    return SceneControl(limits, named(control.locked), named(control.muted), named(control.solo))
 
 
 def _beyond(pin: Mapping[str, Any], rig: Rig) -> bool:

@@ -20,7 +20,7 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.LOCATE_RIG if desk.lost is not None:
             desk.ask("open file", request, _rig_folder(desk), FACES, desk.locate)
         case Command.LOCATE_RIG:
-            pass
+            desk.say("No scene waits for its rig")
         case Command.SAVE if desk.session is not None and desk.keeper.file is not None:
             _save(desk, desk.keeper.file)
         case Command.SAVE | Command.SAVE_AS if desk.session is not None:
@@ -29,6 +29,7 @@ def act(request: Request, desk: Desk) -> bool:
             desk.ask("save file", request, suggested, SCENES, lambda path: _save_as(desk, path))
         case Command.UNSAVED_WORK:
             desk.view.recovery.shown = not desk.view.recovery.shown
+            desk.say("" if desk.keeper.left else "There is no unsaved work but what is open")
         case RestoreWork(draft):
             leftover = _leftover(desk, draft)
             desk.open_scene(leftover.scene, leftover.scene.of, leftover)

@@ -20,8 +20,8 @@ def act(request: Request, desk: Desk) -> bool:
             if session.go_to(step):
                 desk.say(f"Went to step {step}: {session.steps[step].label}")
         case Command.RESET_POSE:
-            desk.say("")
             session.reset()
+            desk.say(session.message)
         case _:
             return False
     return True

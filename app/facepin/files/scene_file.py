@@ -69,6 +69,17 @@ class ScenePane:
     """What lies over the face."""
 
 
+@dataclass(frozen=True)
+class SceneControl:
+    """What holds for the shapes, by their names; of the others nothing but the limits of the rig."""
+
+    limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Where they are others than the rig's."""
+    locked: tuple[str, ...] = ()
+    muted: tuple[str, ...] = ()
+    solo: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, eq=False)
 class Scene:
     """What a scene file says, before it is put on a rig."""
@@ -77,6 +88,7 @@ class Scene:
     panes: tuple[ScenePane, ...]
     pins: tuple[Mapping[str, Any], ...]
     """As in a pins file; all panes share them."""
+    control: SceneControl = field(default_factory=SceneControl)
     reference: Weights | None = None
     active: int = 0
     linked: bool = True
@@ -142,6 +154,7 @@ def scene_bytes(scene: Scene, beside: Path | None, *, indent: int | None = None)
         document["of"] = str(scene.of)
     document["panes"] = [_pane_as_json(pane) for pane in scene.panes]
     document |= {"active": scene.active, "linked": scene.linked, "pins": list(scene.pins)}
+    document["control"] = asdict(scene.control)
     if scene.reference is not None:
         document["reference"] = dict(scene.reference)
     document |= {key: value for key, value in scene.sections.items() if key not in document}
@@ -164,11 +177,12 @@ def parse_scene(content: bytes, where: str) -> Scene:
     panes = document.children("panes")
     if not 1 <= len(panes) <= MOST_PANES:
         document.refuse("panes", f"a list of 1 to {MOST_PANES} panes")
-    known = {"format", "version", "rig", "of", "panes", "active", "linked", "pins", "reference"}
+    known = {"format", "version", "rig", "of", "panes", "active", "linked", "pins", "control", "reference"}
     return Scene(
         _rig(document.child("rig")),
         tuple(_pane(pane) for pane in panes),
         tuple(pin.values for pin in document.children("pins")),
+        _control(document.child("control")),
         _weights(document, "reference") if "reference" in document else None,
         document.integer("active", 0, high=len(panes) - 1),
         document.flag("linked", True),
@@ -200,6 +214,18 @@ def _rig(entry: JsonObject) -> RigReference:
         tuple(entry.strings("shapes")),
         entry.text("fingerprint", ""),
     )
+
+
+def _control(entry: JsonObject) -> SceneControl:
+    limits: dict[str, tuple[float, float]] = {}
+    found = entry.child("limits")
+    for name in found.values:
+        low, high = found.numbers(name, 2)
+        if low > high:
+            found.refuse(name, "two numbers, the lowest first")
+        limits[name] = low, high
+    locked, muted, solo = (tuple(entry.strings(key)) for key in ("locked", "muted", "solo"))
+    return SceneControl(limits, locked, muted, solo)
 
 
 def _pane(entry: JsonObject) -> ScenePane:

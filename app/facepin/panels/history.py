@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 
 from facepin.core.rig import Rig
 from facepin.panels.requests import GoToStep
-from facepin.panels.theme import ACCENT, TEXT, TEXT_DIM
+from facepin.panels.theme import Theme
 from facepin.session.history import Step
 from facepin.session.session import Work
 
@@ -19,7 +19,7 @@ NOTEWORTHY = 0.005
 
 
 def history_window(
-    rig: Rig, steps: Sequence[Step[Work]], at: int, left: float, top: float, scale: float
+    rig: Rig, steps: Sequence[Step[Work]], at: int, left: float, top: float, scale: float, theme: Theme
 ) -> tuple[bool, GoToStep | None]:
     """Draw the history; return whether it stays open, and the step that the user clicked.
 
@@ -35,6 +35,8 @@ def history_window(
         Where the picture begins, in imgui units: there it stands at first.
     scale : float
         imgui units per pixel of a 1x screen.
+    theme : Theme
+        Colours.
     """
     inset = 12 * scale
     imgui.set_next_window_pos(imgui.ImVec2(left + inset, top + inset), imgui.Cond_.first_use_ever)
@@ -51,15 +53,15 @@ def history_window(
         clipper.begin(len(steps))
         while clipper.step():
             for number in range(clipper.display_start, clipper.display_end):
-                if _row(rig, steps, number, at):
+                if _row(rig, steps, number, at, theme):
                     asked = GoToStep(number)
     imgui.end()
     return bool(stays), asked
 
 
-def _row(rig: Rig, steps: Sequence[Step[Work]], number: int, at: int) -> bool:
+def _row(rig: Rig, steps: Sequence[Step[Work]], number: int, at: int, theme: Theme) -> bool:
     """Draw one step; return whether it was clicked."""
-    colour = ACCENT if number == at else TEXT if number < at else TEXT_DIM
+    colour = theme.accent if number == at else theme.text if number < at else theme.text_dim
     imgui.push_id(number)
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     clicked = imgui.selectable(f"{number:>3}  {steps[number].label}", number == at)[0]

@@ -7,7 +7,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.panels.requests import CancelLoading, Command, DiscardWork, Request, RestoreWork
-from facepin.panels.theme import ACCENT, TEXT_DIM, WARNING
+from facepin.panels.theme import Theme
 
 MOST_ROWS = 4
 """Rows that are seen at once; more scroll."""
@@ -33,7 +33,7 @@ class WorkRow:
 
 
 def recovery_card(
-    rows: Sequence[WorkRow], view: RecoveryView, left: float, top: float, width: float
+    rows: Sequence[WorkRow], view: RecoveryView, left: float, top: float, width: float, theme: Theme
 ) -> Request | None:
     """Draw what can be taken up again; return what the user wants, or None.
 
@@ -45,6 +45,8 @@ def recovery_card(
         Changed in place.
     left, top, width : float
         Where the picture is, in imgui units.
+    theme : Theme
+        Colours.
     """
     em = imgui.get_font_size()
     _card("##recovery", left, top, width, 36 * em)
@@ -54,14 +56,15 @@ def recovery_card(
     buttons = [imgui.calc_text_size(word).x + 2 * padding for word in ("Restore", "Really discard")]
     gap = imgui.get_style().item_spacing.x
     imgui.align_text_to_frame_padding()
-    imgui.text_colored(imgui.ImVec4(*ACCENT), "Unsaved work")
+    imgui.text_colored(imgui.ImVec4(*theme.accent), "Unsaved work")
     imgui.same_line()
     imgui.text_disabled("Facepin was left before this was saved.")
     imgui.same_line(imgui.get_window_width() - buttons[1] - imgui.get_style().window_padding.x)
     if imgui.button("Later", imgui.ImVec2(buttons[1], 0)):
         view.shown, view.doomed = False, None
     imgui.set_item_tooltip(f"It stays where it is: File, {Command.UNSAVED_WORK.title}")
-    imgui.begin_child("rows", imgui.ImVec2(0, min(len(rows), MOST_ROWS) * row_height))
+    height = min(len(rows), MOST_ROWS) * row_height - imgui.get_style().item_spacing.y
+    imgui.begin_child("rows", imgui.ImVec2(0, height))
     for row in rows:
         imgui.push_id(str(row.draft))
         imgui.align_text_to_frame_padding()
@@ -69,14 +72,14 @@ def recovery_card(
         imgui.push_clip_rect(x, imgui.ImVec2(x.x + end, x.y + row_height), True)
         imgui.text(row.name)
         imgui.same_line()
-        imgui.text_colored(imgui.ImVec4(*TEXT_DIM), row.about)
+        imgui.text_colored(imgui.ImVec4(*theme.text_dim), row.about)
         imgui.pop_clip_rect()
         imgui.same_line(end + gap)
         if imgui.button("Restore", imgui.ImVec2(buttons[0], 0)):
             asked = RestoreWork(row.draft)
         imgui.same_line()
         if view.doomed == row.draft:
-            imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*WARNING))
+            imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
             if imgui.button("Really discard", imgui.ImVec2(buttons[1], 0)):
                 asked = DiscardWork(row.draft)
                 view.doomed = None
@@ -89,7 +92,9 @@ def recovery_card(
     return asked
 
 
-def lost_card(line: str, left: float, top: float, width: float) -> Command | CancelLoading | None:
+def lost_card(
+    line: str, left: float, top: float, width: float, theme: Theme
+) -> Command | CancelLoading | None:
     """Draw which rig is missing; return what the user does about it, or None.
 
     Parameters
@@ -98,9 +103,11 @@ def lost_card(line: str, left: float, top: float, width: float) -> Command | Can
         What was looked for and where.
     left, top, width : float
         Where the picture is, in imgui units.
+    theme : Theme
+        Colours.
     """
     _card("##lost", left, top, width, 36 * imgui.get_font_size())
-    imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*WARNING))
+    imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
     imgui.text_wrapped(line)
     imgui.pop_style_color()
     imgui.align_text_to_frame_padding()

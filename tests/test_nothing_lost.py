@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from driver import App, running
+from facepin.__main__ import main
 from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested, FilesDropped, PointerMoved
 from facepin.files.drafts import leftovers
@@ -397,3 +398,9 @@ def test_the_history_window_goes_to_any_step(rig: Path) -> None:
         assert app.session.redo_label == "Set"
         app.key("z", control=True, alt=True)
         assert not app.desk.view.history
+
+
+def test_a_scene_brings_its_own_solvers_and_pins(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "one.facepin").touch()
+    assert main([str(tmp_path / "one.facepin"), "--pose", "p.json", "--solver", "hybrid"]) == 2
+    assert "one.facepin is a scene, which has its own --solver and --pose" in capsys.readouterr().err

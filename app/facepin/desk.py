@@ -10,11 +10,8 @@ from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.files import open_rig
-from facepin.files.drafts import Leftover
-from facepin.files.scene_file import SUFFIX, Scene, read_scene
 from facepin.keeping import Keeper
-from facepin.opening import Begun, Lost, Opening, RigOpening, SceneOpening, find_rig, source_of
+from facepin.opening import Begun, Opener, Opening, SceneOpening
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
@@ -67,14 +64,12 @@ class Desk:
         self.cameras: list[Camera] = [Camera()]
         """One per pane."""
         self.stage: Stage | None = None
-        self.loading: Loading | None = None
+        self.opener = Opener()
         self.dialog: FileDialog | None = None
         self.message = ""
         self.is_error = False
         self.opened: Path | None = None
         """The last rig or scene that was opened from a file, for the list of recent ones."""
-        self.lost: Lost | None = None
-        """A scene that waits for its rig to be shown."""
         self.keeper = Keeper(drafts)
         self.closing = False
         self.viewport = Viewport(0, 0, 1, 1)
@@ -86,10 +81,8 @@ class Desk:
         self._native = native_dialogs
         self._then: Callable[[Path], None] = self.open
         """What the open dialog is for."""
-        self._coming: Opening | None = None
-        """What is to be done with the rig that is being opened."""
         self._open: Opening | None = None
-        """What was done with the one that is."""
+        """How what is open was opened."""
         self._numbers = [0]
         """Of the panes that `cameras` and `view.panes` are for."""
         self._looks: dict[int, tuple[Camera, PaneView]] = {}
@@ -104,6 +97,11 @@ class Desk:
     def session(self) -> Session | None:
         """The open session, if any."""
         return self.stage.session if self.stage else None
+
+    @property
+    def loading(self) -> Loading | None:
+        """The rig that is being opened, if any."""
+        return self.opener.loading
 
     @property
     def camera(self) -> Camera:
@@ -139,67 +137,14 @@ class Desk:
         solve: bool = False,
         neutral: str | None = None,
     ) -> None:
-        """Start opening the rig or the scene at `path`; `poll` puts it on the desk when it is there.
-
-        Parameters
-        ----------
-        path : Path
-            File or folder.
-        first_pose : callable
-            Makes the pose to begin with once the rig is there; a scene has its own.
-        solve : bool
-            Whether the weights then follow the pins of that pose.
-        neutral : str
-            For a folder: the file with the neutral.
-
-        Raises
-        ------
-        FacepinError
-            When it is a scene that can't be read, or whose rig is not found.
-        """
-        if path.suffix.lower() == SUFFIX and path.is_file():
-            self.open_scene(read_scene(path), path)
-        else:
-            self._load(RigOpening(source_of(path, neutral), first_pose, solve))
-
-    def open_scene(self, scene: Scene, file: Path | None, leftover: Leftover | None = None) -> None:
-        """Start opening a scene: one from a file, or unsaved work that was left over.
-
-        Raises
-        ------
-        FacepinError
-            When its rig is not found; it is then `lost` until `locate` is told where the rig is.
-        """
-        found = find_rig(scene, file, leftover)
-        if isinstance(found, Lost):
-            self.lost = found
-            raise FacepinError(found.line)
-        self._load(found)
-
-    def locate(self, path: Path) -> None:
-        """Open the scene that waits for its rig, now that the rig was shown."""
-        if self.lost is not None:
-            lost = self.lost
-            source = source_of(path, lost.scene.rig.neutral)
-            self._load(SceneOpening(lost.scene, lost.file, source, lost.leftover, moved=True))
-
-    def _load(self, opening: Opening) -> None:
-        if self.loading is not None:
-            self.loading.cancel()
-        self._coming, self.lost = opening, None
-        neutral = opening.source.neutral
-        self.loading = Loading(
-            opening.source.path, lambda path, progress: open_rig(path, neutral=neutral, progress=progress)
-        )
+        """Start opening a rig or a scene, see `Opener.open`; `poll` puts it on the desk when it is there."""
+        self.opener.open(path, first_pose, solve=solve, neutral=neutral)
 
     def poll(self) -> None:
         """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""
-        if self.loading is not None and self.loading.finished:
-            loading, self.loading = self.loading, None
-            with self.reporting():
-                rig = loading.result()
-                if rig is not None and self._coming is not None:
-                    self._show(rig, self._coming)
+        with self.reporting():
+            if (found := self.opener.take()) is not None:
+                self._show(*found)
         if self.dialog is not None and self.dialog.finished:
             dialog, self.dialog = self.dialog, None
             if dialog.path is not None:
@@ -242,8 +187,7 @@ class Desk:
 
     def release(self) -> None:
         """Give everything back."""
-        if self.loading is not None:
-            self.loading.cancel()
+        self.opener.cancel()
         if self.dialog is not None:
             self.dialog.close()
         if self.stage is not None:

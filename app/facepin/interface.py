@@ -130,8 +130,8 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
         steps, step = session.steps, session.step
         view.history, wanted = history_window(session.rig, steps, step, *place, scale, view.theme)
         asked.append(wanted)
-    if desk.lost is not None:
-        asked.append(lost_card(desk.lost.line, *place, width, view.theme))
+    if desk.opener.lost is not None:
+        asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
     elif desk.keeper.left and view.recovery.shown:
         rows = [_work_row(leftover) for leftover in desk.keeper.left]
         asked.append(recovery_card(rows, view.recovery, *place, width, view.theme))

@@ -8,12 +8,14 @@ from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
+from facepin.files import open_rig
 from facepin.files.drafts import Leftover
-from facepin.files.scene_file import Scene, places
+from facepin.files.scene_file import SUFFIX, Scene, places, read_scene
 from facepin.panels.view import PaneView
 from facepin.resources import resource
 from facepin.scenes import RigSource, resume
 from facepin.session.edit import Edit
+from facepin.session.loading import Loading
 from facepin.session.session import Session
 from facepin.session.solving import SolverChoice
 
@@ -104,6 +106,97 @@ class Lost:
         what = self.file.name if self.file else "the unsaved work"
         looked = " and ".join(str(path) for path in self.looked)
         return f"{what}: its rig {self.scene.rig.name} was not found, looked for {looked}"
+
+
+class Opener:
+    """Reads rigs beside the window, each for what is to be done with it; the last one asked for wins."""
+
+    def __init__(self) -> None:
+        self.loading: Loading | None = None
+        self.lost: Lost | None = None
+        """A scene that waits until its rig is shown."""
+        self._coming: Opening | None = None
+        """What the rig is for that is being read."""
+
+    def open(
+        self,
+        path: Path,
+        first_pose: Callable[[Rig], Pose] | None = None,
+        *,
+        solve: bool = False,
+        neutral: str | None = None,
+    ) -> None:
+        """Start opening the rig or the scene at `path`.
+
+        Parameters
+        ----------
+        path : Path
+            File or folder.
+        first_pose : callable
+            Makes the pose to begin with once the rig is there; a scene has its own.
+        solve : bool
+            Whether the weights then follow the pins of that pose.
+        neutral : str
+            For a folder: the file with the neutral.
+
+        Raises
+        ------
+        FacepinError
+            When it is a scene that can't be read, or whose rig is not found.
+        """
+        if path.suffix.lower() == SUFFIX and path.is_file():
+            self.open_scene(read_scene(path), path)
+        else:
+            self._load(RigOpening(source_of(path, neutral), first_pose, solve))
+
+    def open_scene(self, scene: Scene, file: Path | None, leftover: Leftover | None = None) -> None:
+        """Start opening a scene: one from a file, or unsaved work that was left over.
+
+        Raises
+        ------
+        FacepinError
+            When its rig is not found; it is then `lost` until `locate` is told where the rig is.
+        """
+        found = find_rig(scene, file, leftover)
+        if isinstance(found, Lost):
+            self.lost = found
+            raise FacepinError(found.line)
+        self._load(found)
+
+    def locate(self, path: Path) -> None:
+        """Open the scene that waits for its rig, now that the rig was shown."""
+        if self.lost is not None:
+            lost = self.lost
+            source = source_of(path, lost.scene.rig.neutral)
+            self._load(SceneOpening(lost.scene, lost.file, source, lost.leftover, moved=True))
+
+    def cancel(self) -> None:
+        """Give up what is being read, or waited for."""
+        self.lost = None
+        if self.loading is not None:
+            self.loading.cancel()
+
+    def take(self) -> tuple[Rig, Opening] | None:
+        """Return a rig that has been read, once, and what it is for; None as long as there is none.
+
+        Raises
+        ------
+        FacepinError, OSError
+            When it can't be read.
+        """
+        if self.loading is None or not self.loading.finished:
+            return None
+        loading, self.loading = self.loading, None
+        rig = loading.result()
+        return None if rig is None or self._coming is None else (rig, self._coming)
+
+    def _load(self, opening: Opening) -> None:
+        self.cancel()
+        self._coming = opening
+        neutral = opening.source.neutral
+        self.loading = Loading(
+            opening.source.path, lambda path, progress: open_rig(path, neutral=neutral, progress=progress)
+        )
 
 
 def find_rig(scene: Scene, file: Path | None, leftover: Leftover | None) -> SceneOpening | Lost:

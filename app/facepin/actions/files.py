@@ -29,9 +29,7 @@ def act(request: Request, desk: Desk) -> bool:
         case OpenPath(path):
             desk.open(path)
         case CancelLoading():
-            desk.lost = None
-            if desk.loading is not None:
-                desk.loading.cancel()
+            desk.opener.cancel()
         case Command.OPEN_BUILTIN:
             desk.open(resource("assets", BUILTIN))
         case Command.OPEN_FILE | Command.OPEN_FOLDER:

@@ -7,6 +7,7 @@ from facepin.core.errors import FacepinError
 from facepin.desk import Desk
 from facepin.files.drafts import Leftover
 from facepin.files.scene_file import SUFFIX
+from facepin.opening import Lost
 from facepin.panels.requests import Command, DiscardWork, OpenPath, Request, RestoreWork
 
 SCENES = ("Scenes", f"*{SUFFIX}")
@@ -14,11 +15,16 @@ SCENES = ("Scenes", f"*{SUFFIX}")
 
 def act(request: Request, desk: Desk) -> bool:
     """Carry out what concerns scenes and unsaved work."""
+    lost = desk.opener.lost
     match request:
-        case OpenPath(path) if desk.lost is not None and path.suffix.lower() not in (SUFFIX, ".json", ".csv"):
-            desk.locate(path)
-        case Command.LOCATE_RIG if desk.lost is not None:
-            desk.ask("open file", request, _rig_folder(desk), FACES, desk.locate)
+        case OpenPath(path) if lost is not None and path.suffix.lower() not in (SUFFIX, ".json", ".csv"):
+            desk.opener.locate(path)
+        case Command.LOCATE_RIG if lost is not None:
+            was = lost.scene.rig.path
+            if was is None or was.suffix:
+                desk.ask("open file", request, _rig_folder(lost), FACES, desk.opener.locate)
+            else:
+                desk.ask("open folder", request, _rig_folder(lost), (), desk.opener.locate)
         case Command.LOCATE_RIG:
             desk.say("No scene waits for its rig")
         case Command.SAVE if desk.session is not None and desk.keeper.file is not None:
@@ -32,7 +38,7 @@ def act(request: Request, desk: Desk) -> bool:
             desk.say("" if desk.keeper.left else "There is no unsaved work but what is open")
         case RestoreWork(draft):
             leftover = _leftover(desk, draft)
-            desk.open_scene(leftover.scene, leftover.scene.of, leftover)
+            desk.opener.open_scene(leftover.scene, leftover.scene.of, leftover)
         case DiscardWork(draft):
             leftover = _leftover(desk, draft)
             desk.keeper.discard(leftover)
@@ -67,12 +73,10 @@ def _save(desk: Desk, path: Path) -> None:
     desk.say(f"Saved {path}")
 
 
-def _rig_folder(desk: Desk) -> Path:
+def _rig_folder(lost: Lost) -> Path:
     """Return where a lost rig is looked for first."""
-    near = [] if desk.lost is None else [path.parent for path in desk.lost.looked]
-    if desk.lost is not None and desk.lost.file is not None:
-        near.insert(0, desk.lost.file.absolute().parent)
-    return next((folder for folder in near if folder.is_dir()), Path.home())
+    near = [path.parent for path in (lost.file, *lost.looked) if path is not None]
+    return next((folder.absolute() for folder in near if folder.is_dir()), Path.home())
 
 
 def _leftover(desk: Desk, draft: Path) -> Leftover:

@@ -142,7 +142,9 @@ def _work_row(leftover: Leftover) -> WorkRow:
     scene = leftover.scene
     name = scene.rig.name if scene.of is None else f"{scene.of.name} ({scene.rig.name})"
     pins, panes = len(scene.pins), len(scene.panes)
-    about = [f"{leftover.time:%d %b %H:%M}", f"{pins} pin{'' if pins == 1 else 's'}"]
+    shapes = len(scene.panes[scene.active].weights)
+    about = [f"{leftover.time:%d %b %H:%M}"]
+    about += [f"{shapes} shape{'' if shapes == 1 else 's'}", f"{pins} pin{'' if pins == 1 else 's'}"]
     about += [f"{panes} panes"] * (panes > 1)
     return WorkRow(leftover.draft.path, name, "  ".join(about))
 

@@ -64,34 +64,34 @@ def _row(rig: Rig, steps: Sequence[Step[Work]], number: int, at: int, theme: The
     colour = theme.accent if number == at else theme.text if number < at else theme.text_dim
     imgui.push_id(number)
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
-    clicked = imgui.selectable(f"{number:>3}  {steps[number].label}", number == at)[0]
+    label = f"{number:>3}  {steps[number].label}"
+    clicked = imgui.selectable(label, number == at)[0]
     imgui.pop_style_color()
     if number > at and imgui.is_item_hovered():
         imgui.set_tooltip("Undone; a click brings it back")
-    detail = _change(rig, steps[number - 1].value, steps[number].value) if number else ""
-    width = imgui.calc_text_size(detail).x
-    right = (
-        imgui.get_window_width()
-        - width
-        - imgui.get_style().window_padding.x
-        - imgui.get_style().scrollbar_size
-    )
-    if detail and right > imgui.calc_text_size(f"{number:>3}  {steps[number].label}  ").x:
+    detail = _change(rig, steps[number - 1], steps[number]) if number else ""
+    style, gap = imgui.get_style(), imgui.calc_text_size("  ").x
+    right = imgui.get_window_width() - style.window_padding.x - style.scrollbar_size
+    right -= imgui.calc_text_size(detail).x
+    if detail and right > style.window_padding.x + imgui.calc_text_size(label).x + gap:
         imgui.same_line(right)
         imgui.text_disabled(detail)
     imgui.pop_id()
     return bool(clicked) and number != at
 
 
-def _change(rig: Rig, before: Work, after: Work) -> str:
+def _change(rig: Rig, before: Step[Work], step: Step[Work]) -> str:
     """Return which weight a step changed most, and by how much; empty where it changed none."""
     changes = [
         new.pose.weights - old.pose.weights
-        for new, old in zip(after.panes, before.panes, strict=False)
+        for new, old in zip(step.value.panes, before.value.panes, strict=False)
         if new.pose.weights is not old.pose.weights
     ]
     if not changes or not rig.shape_count:
         return ""
     change = max(changes, key=lambda change: float(np.abs(change).max()))
     j = int(np.argmax(np.abs(change)))
-    return f"{rig.shape_names[j]} {change[j]:+.2f}" if abs(change[j]) > NOTEWORTHY else ""
+    if abs(change[j]) < NOTEWORTHY:
+        return ""
+    name = rig.shape_names[j]
+    return f"{change[j]:+.2f}" if name in step.label else f"{name} {change[j]:+.2f}"

@@ -59,7 +59,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
     if view.keyboard:
         view.keyboard = keyboard_map(view.habit, view.theme, scale)
     if view.about:
-        view.about = about_window(desk.graphics, view.theme, scale)
+        view.about = about_window(desk.graphics, scale)
     return [request for request in asked if request is not None]
 
 

@@ -133,7 +133,7 @@ def draw_guide(
     key = key_of(step.sign, habit) if isinstance(step.sign, Command) else ""
     sign = caps_width(key, scale) if key else 2.4 * line
     text = imgui.calc_text_size(step.text).x
-    dots = len(STEPS) * 0.55 * line
+    dots = len(STEPS) * 0.6 * line
     gap, pad = 0.7 * line, 0.9 * line
     wide, tall = pad + sign + gap + text + gap + dots + pad, 2.2 * line
     left = (viewport.x + viewport.width / 2) / pixel_ratio - wide / 2
@@ -153,8 +153,8 @@ def draw_guide(
     x += text + gap
     for number in range(len(STEPS)):
         colour = theme.accent if number == guide.step else tinted(theme.text_dim, 0.7)
-        at = imgui.ImVec2(x + (number + 0.5) * 0.55 * line, middle)
-        draw.add_circle_filled(at, (0.14 if number == guide.step else 0.1) * line, packed(colour))
+        at = imgui.ImVec2(x + (number + 0.5) * 0.6 * line, middle)
+        draw.add_circle_filled(at, (0.18 if number == guide.step else 0.13) * line, packed(colour))
 
 
 def _sign(

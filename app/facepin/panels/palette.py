@@ -177,8 +177,8 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
     imgui.pop_style_var()
     imgui.pop_style_color()
     if state.fresh:
-        imgui.set_keyboard_focus_here()
         imgui.set_window_focus()
+        imgui.set_keyboard_focus_here()
     leaves = not state.fresh and not imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows)
     state.fresh = False
     imgui.set_next_item_width(-1)
@@ -203,7 +203,7 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
         return None
     chosen = fitting[state.row][0]
     if chosen.reason:
-        imgui.set_keyboard_focus_here(-1)
+        state.fresh = True  # Enter has left the field
         return None
     view.palette = None
     name = _plain(chosen)

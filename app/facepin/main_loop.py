@@ -93,7 +93,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     However it ends, a pose that nobody saved is kept, and the next start says where.
     """
     view = View()
-    rough, smooth = Canvas(window.ctx, 0), Canvas(window.ctx, 4)
+    rough, smooth = Canvas(window.ctx, 0, window.texture), Canvas(window.ctx, 4, window.texture)
     desk = Desk(
         window.ctx,
         view,
@@ -209,10 +209,10 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
                     desk.tool,
                     window.scale,
                     fine=canvas is smooth,
+                    beside=theme.panel,
                 )
                 drawn = wanted
-            window.show(canvas.overlay, viewport)
-            window.fill_beside(theme.panel, viewport)
+            window.show(canvas.flat())
         else:
             window.clear(theme.panel)
         window.end_frame()
@@ -288,4 +288,5 @@ def _picture_key(
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
     hands = (tool.selected, tool.hovered, tool.held)
-    return (stage, stage.refined, work, canvas, size, viewports, tuple(desk.cameras), overlays, hands)
+    seen = (canvas, size, viewports, tuple(desk.cameras), desk.view.theme)
+    return (stage, stage.refined, work, *seen, overlays, hands)

@@ -9,6 +9,7 @@ from facepin.panels.guide import Guide
 from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights import WeightsView
 from facepin.session.navigation import PRESETS, Habit
+from facepin.session.solving import SolverChoice
 
 Quality = Literal["auto", "always", "off"]
 
@@ -32,6 +33,8 @@ class PaneView:
     ghost: Ghost = "none"
     """Another pose that shines through."""
 
+    choices: dict[str, SolverChoice] = field(default_factory=dict)
+    """Solvers that were in use here, by key: coming back to one finds its settings."""
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 

@@ -57,7 +57,7 @@ def entries(view: View, session: Session | None, recent: Sequence[Path]) -> list
     """List all actions there are, in the order of the table of commands; then what has a few values each."""
     found = [_command(command, view, session) for command in Command if command is not Command.PALETTE]
     if session is not None:
-        found += _solvers(session)
+        found += _solvers(view, session)
     for name, choice in CHOICES.items():
         for value, title in choice.values.items():
             on = getattr(view, name) == value
@@ -78,16 +78,17 @@ def _command(command: Command, view: View, session: Session | None) -> Entry:
     return Entry(title, command.topic, command, command.help, key, reason)
 
 
-def _solvers(session: Session) -> list[Entry]:
+def _solvers(view: View, session: Session) -> list[Entry]:
     """List what can be done with solvers, panes and random references."""
     kind, keep = session.pane.choice.kind, session.pane.choice.keep_limits
+    used = view.panes[session.active].choices
     full = f"there are {MOST_PANES} panes" if len(session.panes) >= MOST_PANES else ""
     alone = "" if len(session.panes) > 1 else "there is one pane"
     found = [
         Entry(
             f"Solver: {other.title}",
             "Solver",
-            UseSolver(session.active, choose(key, keep_limits=keep)),
+            UseSolver(session.active, used.get(key) or choose(key, keep_limits=keep)),
             other.summary,
             on=other is kind,
         )

@@ -3,6 +3,7 @@
 import os
 import signal
 import stat
+from pathlib import Path
 
 import pytest
 
@@ -91,6 +92,44 @@ def test_what_is_set_aside_says_so_and_keeps_its_content(tmp_path):
     assert (tmp_path / "a.json.broken").read_bytes() == b"odd"
     assert not path.exists()
     assert "could not be set aside" in set_aside(path)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="only a process that can be forked is killed here")
+@pytest.mark.parametrize("where", ["write", "sync", "before the rename", "after the rename"])
+def test_a_process_killed_while_writing_leaves_the_old_file_or_the_new_one(tmp_path, where):
+    path = tmp_path / "a.txt"
+    atomic_write(path, b"before")
+    child = os.fork()
+    if child == 0:
+        _die_at(where)
+        atomic_write(path, b"after")
+        os._exit(0)
+    _, status = os.waitpid(child, 0)
+    assert os.WTERMSIG(status) == signal.SIGKILL
+    assert path.read_bytes() == (b"after" if where == "after the rename" else b"before")
+
+
+def _die_at(where):
+    """Have this process killed when it comes to a step of writing a file."""
+
+    def die(*_):
+        os.kill(os.getpid(), signal.SIGKILL)
+
+    def half(path, content):
+        with path.open("wb") as file:
+            file.write(content[: len(content) // 2])
+            file.flush()
+            die()
+
+    replace = Path.replace
+    if where == "write":
+        Path.write_bytes = half
+    elif where == "sync":
+        os.fsync = die
+    elif where == "before the rename":
+        Path.replace = die
+    else:
+        Path.replace = lambda path, target: (replace(path, target), die())
 
 
 def test_other_errors_pass_and_clean_up(tmp_path):

@@ -33,7 +33,7 @@ def corners() -> list[tuple[float, float]]:
 @pytest.mark.usefixtures("frame")
 def test_it_stands_at_the_lower_right_of_its_pane(height: float) -> None:
     place = Viewport(100, 50, 600, 500)
-    heat_legend(height, place, pixel_ratio=1.0, scale=1.0, theme=THEMES["dark"])
+    heat_legend(height, place, pixel_ratio=1.0, scale=1.0)
     x, y = zip(*corners(), strict=True)
     assert 100 + 300 < min(x) < max(x) < 700
     assert 50 + 250 < min(y) < max(y) < 550
@@ -41,7 +41,7 @@ def test_it_stands_at_the_lower_right_of_its_pane(height: float) -> None:
 
 @pytest.mark.usefixtures("frame")
 def test_it_is_as_large_on_the_screen_whatever_the_pixels() -> None:
-    heat_legend(1.0, Viewport(0, 0, 1600, 1200), pixel_ratio=2.0, scale=1.0, theme=THEMES["dark"])
+    heat_legend(1.0, Viewport(0, 0, 1600, 1200), pixel_ratio=2.0, scale=1.0)
     x, y = zip(*corners(), strict=True)
     assert max(x) < 800
     assert max(y) < 600
@@ -49,5 +49,5 @@ def test_it_is_as_large_on_the_screen_whatever_the_pixels() -> None:
 
 @pytest.mark.usefixtures("frame")
 def test_a_tiny_pane_goes_without() -> None:
-    heat_legend(1.0, Viewport(0, 0, 200, 150), pixel_ratio=1.0, scale=1.0, theme=THEMES["dark"])
+    heat_legend(1.0, Viewport(0, 0, 200, 150), pixel_ratio=1.0, scale=1.0)
     assert not corners()

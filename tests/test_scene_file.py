@@ -37,6 +37,7 @@ def worked() -> Session:
     limits = session.control.limits * [[-0.5, 2.0]] - [[0.125, 0]]
     locked, muted = np.arange(4) == 3, np.arange(4) == 1
     session.set_control("Lock", replace(session.control, limits=limits, locked=locked, muted=muted))
+    session.set_mirror("Pair shapes", session.mirror.parted(0).paired(1, 2))
     session.set_reference(np.array([0, 0.7, 0, 0.1]))
     session.active = 1
     return session
@@ -70,6 +71,7 @@ def test_a_scene_comes_back_bit_for_bit(tmp_path: Path) -> None:
     again = Session.resumed(RIG, found.work, found.active)
     same_work(session, again)
     np.testing.assert_array_equal(again.work.reference, session.work.reference)
+    np.testing.assert_array_equal(again.mirror.shapes, session.mirror.shapes)
     for name in ("limits", "locked", "muted", "solo"):
         np.testing.assert_array_equal(getattr(again.control, name), getattr(session.control, name))
     assert (again.active, found.linked, found.report) == (1, False, "")

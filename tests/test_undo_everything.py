@@ -100,6 +100,9 @@ MAKERS: dict[type, Maker] = {
         remove=bool(random.integers(4) == 0),
         final=bool(random.integers(2)),
     ),
+    requests.PairShapes: lambda random, _: requests.PairShapes(
+        int(random.integers(RIG.shape_count)), [None, *range(RIG.shape_count)][random.integers(5)]
+    ),
     requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),
 }
 """How a request with something to say is made up."""
@@ -150,6 +153,7 @@ def state(session: Session) -> tuple[Work, list[object]]:
     control = work.control
     values: list[object] = [None if work.reference is None else work.reference.tobytes()]
     values += [flags.tobytes() for flags in (control.limits, control.locked, control.muted, control.solo)]
+    values.append(None if work.mirror is None else work.mirror.shapes.tobytes())
     for pane in work.panes:
         began = None if pane.began is None else (pane.began.weights.tobytes(), pane.began.pins)
         values += [pane.choice, pane.pose.weights.tobytes(), pane.pose.pins, pane.hand.tobytes(), began]

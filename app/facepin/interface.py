@@ -24,7 +24,7 @@ from facepin.panels.recovery import WorkRow, lost_card, recovery_card
 from facepin.panels.requests import Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import loading_card, status_line
-from facepin.panels.theme import pane_colours
+from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.panels.weights import weights_panel
 from facepin.session.session import Session
 
@@ -70,7 +70,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
     if view.keyboard:
         view.keyboard = keyboard_map(view.habit, view.theme, scale)
     if view.about:
-        view.about = about_window(desk.graphics, view.theme, scale)
+        view.about = about_window(desk.graphics, scale)
     return [request for request in asked if request is not None]
 
 
@@ -153,12 +153,13 @@ def over_picture(
     desk: Desk, viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
 ) -> list[Request]:
     """Draw what stands over the picture: a title for each of several panes, a hint over an untouched face."""
-    session, stage, theme = desk.session, desk.stage, desk.view.theme
+    session, stage = desk.session, desk.stage
     if session is None or stage is None:
         return []
     asked: list[Request] = []
     if len(viewports) > 1:
-        colours = pane_colours(theme, [pane.choice.kind.key for pane in session.panes])
+        _seams(viewport, viewports, pixel_ratio, scale)
+        colours = pane_colours(PICTURE, [pane.choice.kind.key for pane in session.panes])
         for at, (pane, place) in enumerate(zip(session.panes, viewports, strict=False)):
             asked += pane_title(
                 at,
@@ -168,7 +169,6 @@ def over_picture(
                 place,
                 pixel_ratio,
                 scale,
-                theme,
                 habit=desk.view.habit,
                 colour=colours[at],
                 active=at == session.active,
@@ -176,9 +176,26 @@ def over_picture(
             )
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.heat:
-            heat_legend(session.rig.height, place, pixel_ratio, scale, theme)
+            heat_legend(session.rig.height, place, pixel_ratio, scale)
     _first_steps(desk, session, viewport, pixel_ratio, scale)
     return asked
+
+
+def _seams(viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float) -> None:
+    """Draw the gaps between panes as dark as what is beside them, whatever the theme."""
+
+    def corner(x: float, y: float) -> imgui.ImVec2:
+        return imgui.ImVec2(x / pixel_ratio, y / pixel_ratio)
+
+    draw = imgui.get_background_draw_list()
+    right, bottom = viewport.x + viewport.width, viewport.y + viewport.height
+    draw.push_clip_rect(corner(viewport.x, viewport.y), corner(right, bottom), False)
+    for at in viewports:
+        half = scale * pixel_ratio
+        upper = corner(at.x - half, at.y - half)
+        lower = corner(at.x + at.width + half, at.y + at.height + half)
+        draw.add_rect(upper, lower, packed(PICTURE.bar), 0.0, thickness=2 * scale)
+    draw.pop_clip_rect()
 
 
 def _first_steps(desk: Desk, session: Session, viewport: Viewport, pixel_ratio: float, scale: float) -> None:

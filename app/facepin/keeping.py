@@ -107,7 +107,7 @@ class Keeper:
         if self._folder is None or self._draft is None:
             return None
         self.follow(session, snapshot)
-        if not self._saver.flush():
+        if not self._saver.flush() and not self.is_saved(session):
             raise FacepinError(
                 f"the unsaved work on {session.rig.name} can't be kept, so it stays open: {self.complaint}"
             )

@@ -5,7 +5,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.errors import FacepinError
-from facepin.files.atomic import atomic_write, set_aside
+from facepin.files.atomic import atomic_write, make_folder, set_aside
 from facepin.files.reading import read_bytes
 
 
@@ -29,24 +29,26 @@ class LayoutFile:
             return
         imgui.load_ini_settings_from_memory(self._text)
 
-    def save_if_due(self) -> None:
-        """Write the layout when imgui says that it is another, some seconds after it was changed."""
+    def save_if_due(self) -> str | None:
+        """As `save`, but only when imgui says that it is time, some seconds after a change."""
         io = imgui.get_io()
-        if io.want_save_ini_settings:
-            io.want_save_ini_settings = False
-            self.save()
+        if not io.want_save_ini_settings:
+            return None
+        io.want_save_ini_settings = False
+        return self.save()
 
-    def save(self) -> None:
-        """Write the layout if it is another; when that is impossible, it is not worth an interruption."""
+    def save(self) -> str | None:
+        """Write the layout if it is another; return one line when that is impossible."""
         text = imgui.save_ini_settings_to_memory()
         if self._path is None or text == self._text:
-            return
+            return None
         self._text = text
         try:
-            self._path.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(self._path.parent)
             atomic_write(self._path, text.encode())
-        except (FacepinError, OSError) as error:
-            self.complaint = f"the layout of the panels could not be kept: {error}"
+        except FacepinError as error:
+            return f"the layout of the panels could not be kept: {error}"
+        return None
 
 
 def _check(text: str) -> None:

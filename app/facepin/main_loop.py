@@ -39,6 +39,8 @@ SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
 HOVER_DELAY = 0.2
 """Seconds after the last event when imgui is given another look: it explains what the mouse rests on."""
+ICON_SIZES = (16, 32, 48, 256)
+"""Pixels per side of the icon, for whoever shows it."""
 PANE_GAP = 2.0
 """Pixels between panes at 1x scale."""
 
@@ -81,8 +83,9 @@ class Frame:
 
 def run(window: Window, start: Start) -> None:
     """Show the window until the user closes it."""
-    for _ in frames(window, start):
-        pass
+    for number, _ in enumerate(frames(window, start)):
+        if number == 1:  # what the first picture can do without comes after it
+            window.set_icons([resource("assets", f"icon/facepin-{size}.png") for size in ICON_SIZES])
 
 
 def frames(window: Window, start: Start) -> Iterator[Frame]:
@@ -239,7 +242,8 @@ def _loop(
         if desk.title != title:
             title = desk.title
             window.set_title(title)
-        layout_file.save_if_due()
+        if complaint := layout_file.save_if_due():
+            desk.say(complaint, error=True)
         remembered = _remembered(preferences, desk)
         if preferences_file and remembered != preferences:
             preferences = remembered

@@ -69,7 +69,7 @@ class Router:
                 asked.append(Command.QUIT)
             case FilesDropped((first, *_)):
                 asked.append(OpenPath(first.parent if first.suffix.lower() == ".obj" else first))
-            case KeyPressed() if not imgui.get_io().want_text_input:
+            case KeyPressed() if not imgui.get_io().want_text_input and desk.view.palette is None:
                 command = command_for(event, desk.view.habit)
                 in_hand = desk.tool.holding or self.navigator.holding
                 # What a gesture began with must not change under it; a picture of it may be taken.

@@ -1,7 +1,7 @@
 """From the open work to a scene, and back onto a rig: the same one, or one that changed meanwhile."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, get_args
 
@@ -11,6 +11,7 @@ from facepin.core.arrays import Floats, frozen
 from facepin.core.camera import Camera
 from facepin.core.control import Flags, ShapeControl
 from facepin.core.errors import FacepinError
+from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
@@ -107,6 +108,7 @@ def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
         tuple(map(in_scene, work.panes, snapshot.cameras, snapshot.shown)),
         tuple(pins_as_json(work.panes[0].pose.pins)),
         _control_of(work.control, rig),
+        None if work.mirror is None else _twins_of(work.mirror, rig),
         None if work.reference is None else named(work.reference),
         snapshot.active,
         snapshot.linked,
@@ -149,7 +151,7 @@ def resume(scene: Scene, rig: Rig) -> Resumed:
     )
     reference = None if scene.reference is None else weights.place(scene.reference)
     return Resumed(
-        Work(shared, control, reference),
+        Work(shared, control, None if scene.twins is None else weights.mirror(scene.twins), reference),
         scene.active,
         tuple(pane.camera if same else None for pane in scene.panes),
         tuple(_view(pane.shown) for pane in scene.panes),
@@ -194,7 +196,17 @@ class _Placing:
             found[[at for name in names if (at := self._find(name)) is not None]] = True
             return found
 
-        return ShapeControl(limits, flags(saved.locked), flags(saved.muted), flags(saved.solo))
+        locked, muted, solo = flags(saved.locked), flags(saved.muted), flags(saved.solo)
+        return replace(control, limits=limits, locked=locked, muted=muted, solo=solo)
+
+    def mirror(self, pairs: Sequence[tuple[str, str]]) -> Mirror:
+        """Return who is whose twin on the rig: shapes as in `pairs`, vertices as they are found."""
+        twins = np.full(self._rig.shape_count, -1, np.int32)
+        for pair in pairs:
+            one, other = map(self._find, pair)
+            if one is not None and other is not None and twins[one] == twins[other] == -1:
+                twins[one], twins[other] = other, one
+        return replace(find_mirror(self._rig), shapes=frozen(twins, np.int32))
 
     def _find(self, name: str) -> int | None:
         if name not in self._places:
@@ -223,6 +235,12 @@ def _control_of(control: ShapeControl, rig: Rig) -> SceneControl:
     changed = np.flatnonzero((control.limits != rig.limits).any(axis=1)).tolist()
     limits = {rig.shape_names[j]: (float(control.limits[j, 0]), float(control.limits[j, 1])) for j in changed}
     return SceneControl(limits, named(control.locked), named(control.muted), named(control.solo))
+
+
+def _twins_of(mirror: Mirror, rig: Rig) -> tuple[tuple[str, str], ...]:
+    """Return by name who is whose twin, each pair once."""
+    pairs = [(j, int(twin)) for j, twin in enumerate(mirror.shapes) if twin >= j]
+    return tuple((rig.shape_names[one], rig.shape_names[other]) for one, other in pairs)
 
 
 def _beyond(pin: Mapping[str, Any], rig: Rig) -> bool:

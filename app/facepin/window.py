@@ -4,7 +4,7 @@ Without a display the same class opens on glfw's null platform: a real context, 
 """
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -152,6 +152,20 @@ class Window:
     def set_title(self, title: str) -> None:
         """Say `title` in the title bar."""
         glfw.set_window_title(self._handle, title)
+
+    def set_icons(self, paths: Sequence[Path]) -> None:
+        """Show the picture of a fitting size in the task bar, where the system has a place for it.
+
+        Parameters
+        ----------
+        paths : sequence of Path
+            PNG files of several sizes.
+        """
+        from PIL import Image
+
+        pictures = [Image.open(path).convert("RGBA") for path in paths]
+        with _Complaints():
+            glfw.set_window_icon(self._handle, len(pictures), pictures)
 
     def poll(self, wait: float | None = None) -> list[Event]:
         """Return what happened since the last call, oldest first.

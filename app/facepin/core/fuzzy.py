@@ -1,6 +1,6 @@
 """Finding a phrase by some of its letters, as in the command palettes of text editors."""
 
-WORD_START, CAPITAL, CONSECUTIVE, LETTER = 10.0, 8.0, 6.0, 1.0
+WORD_START, CAPITAL, CONSECUTIVE, LETTER = 10.0, 8.0, 9.0, 1.0
 """What a letter is worth: that begins a word, that is a capital inside of one, that follows the letter found
 before it, and any other."""
 GAP = 0.3

@@ -25,6 +25,20 @@ def atomic_write(path: Path, content: bytes) -> None:
         temporary.write_bytes(content)
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder for files to be written to, if it is not there.
+
+    Raises
+    ------
+    FacepinError
+        If it cannot be made.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FacepinError(f"{path}: the folder cannot be made: {error.strerror or error}") from error
+
+
 @contextmanager
 def atomic_file(path: Path) -> Iterator[Path]:
     """Give a temporary path beside `path` to write to; it replaces `path` when the block ends well.

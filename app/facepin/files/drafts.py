@@ -7,7 +7,7 @@ from pathlib import Path
 from secrets import token_hex
 
 from facepin.core.errors import FacepinError
-from facepin.files.atomic import atomic_write, set_aside
+from facepin.files.atomic import atomic_write, make_folder, set_aside
 from facepin.files.file_lock import FileLock, take_lock
 from facepin.files.reading import read_bytes
 from facepin.files.scene_file import SUFFIX, NewerVersion, Scene, parse_scene
@@ -41,11 +41,15 @@ class Draft:
 
         Raises
         ------
-        FacepinError, OSError
+        FacepinError
             When it can't be written; what it held before is still there.
         """
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        if not self.claim():
+        make_folder(self.path.parent)
+        try:
+            mine = self.claim()
+        except OSError as error:
+            raise FacepinError(f"{self.path}: cannot be written: {error.strerror or error}") from error
+        if not mine:
             raise FacepinError(f"{self.path}: another window writes this")
         atomic_write(self.path, content)
 

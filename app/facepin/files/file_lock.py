@@ -51,7 +51,7 @@ def take_lock(path: Path) -> FileLock | None:
     try:
         _lock(file)
     except OSError as error:
-        if error.errno not in _NO_LOCKS or _is_running(os.pread(file, 200, 0)):
+        if error.errno not in _NO_LOCKS or _is_running(os.read(file, 200)):
             os.close(file)
             return None
     with suppress(OSError):  # a full disk: the lock itself takes no room

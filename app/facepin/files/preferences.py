@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Freedom
-from facepin.files.atomic import atomic_write, set_aside
+from facepin.files.atomic import atomic_write, make_folder, set_aside
 from facepin.files.checked_json import parse_json
 
 Quality = Literal["auto", "always", "off"]
@@ -68,7 +68,10 @@ def read_preferences(path: Path) -> tuple[Preferences, str | None]:
     except FileNotFoundError:
         return Preferences(), None
     except OSError as error:
-        return Preferences(), f"the preferences can't be read ({error}); the defaults are used"
+        return (
+            Preferences(),
+            f"the preferences can't be read ({error.strerror or error}); the defaults are used",
+        )
     except FacepinError as error:
         return Preferences(), f"the preferences can't be used: {error}; {set_aside(path)}"
     usable = {name: found[name] for name, check in _CHECKS.items() if name in found and check(found[name])}
@@ -85,8 +88,8 @@ def write_preferences(path: Path, preferences: Preferences) -> str | None:
     """Write the preferences; return one line when that is impossible (they are not worth an interruption)."""
     text = json.dumps(asdict(preferences), indent=2) + "\n"
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(path.parent)
         atomic_write(path, text.encode())
-    except (OSError, FacepinError) as error:
+    except FacepinError as error:
         return f"preferences could not be kept: {error}"
     return None

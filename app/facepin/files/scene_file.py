@@ -21,6 +21,11 @@ from facepin.solvers.settings import Plain
 
 FORMAT, VERSION = "facepin-scene", 1
 SUFFIX = ".facepin"
+KNOWN = {
+    *("format", "version", "rig", "of", "panes", "active", "linked"),
+    *("pins", "control", "twins", "reference"),
+}
+"""Sections that this program knows."""
 MOST_PANES = 16
 """More than any window shows."""
 FAR = 1e15
@@ -89,6 +94,8 @@ class Scene:
     pins: tuple[Mapping[str, Any], ...]
     """As in a pins file; all panes share them."""
     control: SceneControl = field(default_factory=SceneControl)
+    twins: tuple[tuple[str, str], ...] | None = None
+    """Shapes that are each other's mirror images, where the user has said so."""
     reference: Weights | None = None
     active: int = 0
     linked: bool = True
@@ -155,6 +162,8 @@ def scene_bytes(scene: Scene, beside: Path | None, *, indent: int | None = None)
     document["panes"] = [_pane_as_json(pane) for pane in scene.panes]
     document |= {"active": scene.active, "linked": scene.linked, "pins": list(scene.pins)}
     document["control"] = asdict(scene.control)
+    if scene.twins is not None:
+        document["twins"] = [list(pair) for pair in scene.twins]
     if scene.reference is not None:
         document["reference"] = dict(scene.reference)
     document |= {key: value for key, value in scene.sections.items() if key not in document}
@@ -177,17 +186,17 @@ def parse_scene(content: bytes, where: str) -> Scene:
     panes = document.children("panes")
     if not 1 <= len(panes) <= MOST_PANES:
         document.refuse("panes", f"a list of 1 to {MOST_PANES} panes")
-    known = {"format", "version", "rig", "of", "panes", "active", "linked", "pins", "control", "reference"}
     return Scene(
         _rig(document.child("rig")),
         tuple(_pane(pane) for pane in panes),
         tuple(pin.values for pin in document.children("pins")),
         _control(document.child("control")),
+        _twins(document) if "twins" in document else None,
         _weights(document, "reference") if "reference" in document else None,
         document.integer("active", 0, high=len(panes) - 1),
         document.flag("linked", True),
         _path(document, "of"),
-        _sections({key: value for key, value in document.values.items() if key not in known}, where),
+        _sections({key: value for key, value in document.values.items() if key not in KNOWN}, where),
     )
 
 
@@ -226,6 +235,18 @@ def _control(entry: JsonObject) -> SceneControl:
         limits[name] = low, high
     locked, muted, solo = (tuple(entry.strings(key)) for key in ("locked", "muted", "solo"))
     return SceneControl(limits, locked, muted, solo)
+
+
+def _twins(document: JsonObject) -> tuple[tuple[str, str], ...]:
+    pairs: list[tuple[str, str]] = []
+    found = document.values["twins"]
+    for pair in found if isinstance(found, list) else [None]:
+        match pair:
+            case [str(one), str(other)]:
+                pairs.append((one, other))
+            case _:
+                document.refuse("twins", "a list of pairs of names")
+    return tuple(pairs)
 
 
 def _pane(entry: JsonObject) -> ScenePane:

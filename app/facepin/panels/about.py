@@ -5,24 +5,20 @@ import platform
 from imgui_bundle import imgui
 
 from facepin import __version__
-from facepin.panels.theme import Theme
 
 TITLE = "About Facepin"
 PAPER = (
-    "Ozan Cetinaslan, John Lewis, Verónica Orvalho:",
-    "Transposition Based Blendshape Direct Manipulation, 2017",
+    "Ozan Cetinaslan, John Lewis, Verónica Orvalho:\nTransposition Based Blendshape Direct Manipulation, 2017"
 )
 
 
-def about_window(graphics: str, theme: Theme, scale: float) -> bool:
+def about_window(graphics: str, scale: float) -> bool:
     """Draw the window; return whether it stays open.
 
     Parameters
     ----------
     graphics : str
         The graphics driver and its version.
-    theme : Theme
-        Colours.
     scale : float
         imgui units per pixel of a 1x screen.
     """
@@ -45,7 +41,6 @@ def about_window(graphics: str, theme: Theme, scale: float) -> bool:
         "Font": "Roboto, Apache License 2.0",
     }
     if shown:
-        imgui.text_colored(imgui.ImVec4(*theme.accent), "Facepin")
         imgui.text("Poses a blendshape face by pinning points on it and dragging them.")
         imgui.dummy(imgui.ImVec2(0, 4 * scale))
         if imgui.begin_table("facts", 2, imgui.TableFlags_.sizing_fixed_fit):
@@ -59,8 +54,7 @@ def about_window(graphics: str, theme: Theme, scale: float) -> bool:
             imgui.table_next_column()
             imgui.text_disabled("After")
             imgui.table_next_column()
-            for line in PAPER:
-                imgui.text(line)
+            imgui.text(PAPER)
             imgui.end_table()
         imgui.dummy(imgui.ImVec2(0, 4 * scale))
         if imgui.button("Copy"):

@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.requests import Command, key_of
-from facepin.panels.theme import THEMES, packed, tinted
+from facepin.panels.theme import PICTURE, packed, tinted
 from facepin.session.navigation import Habit
 
 BEAT = 1.1
@@ -128,12 +128,11 @@ def draw_guide(
     if guide.over:
         return
     step = STEPS[guide.step]
-    theme = THEMES["dark"]  # it stands on the studio wall, which is dark in every theme
     line = imgui.get_text_line_height()
     key = key_of(step.sign, habit) if isinstance(step.sign, Command) else ""
     sign = caps_width(key, scale) if key else 2.4 * line
     text = imgui.calc_text_size(step.text).x
-    dots = len(STEPS) * 0.55 * line
+    dots = len(STEPS) * 0.6 * line
     gap, pad = 0.7 * line, 0.9 * line
     wide, tall = pad + sign + gap + text + gap + dots + pad, 2.2 * line
     left = (viewport.x + viewport.width / 2) / pixel_ratio - wide / 2
@@ -141,33 +140,32 @@ def draw_guide(
     draw = imgui.get_background_draw_list()
     corner, opposite = imgui.ImVec2(left, top), imgui.ImVec2(left + wide, top + tall)
     draw.add_rect_filled(corner, opposite, packed((0.04, 0.042, 0.05, 0.78)), tall / 2)
-    draw.add_rect(corner, opposite, packed(tinted(theme.ink, 0.12)), tall / 2, thickness=scale)
+    draw.add_rect(corner, opposite, packed(tinted(PICTURE.ink, 0.12)), tall / 2, thickness=scale)
     middle = top + tall / 2
     if key:
-        draw_caps(draw, left + pad, middle, key, theme, scale)
+        draw_caps(draw, left + pad, middle, key, PICTURE, scale)
     else:
         turn = ((now - guide.began) / BEAT) % 1.0 if guide.moving(now) else 0.5
         _sign(draw, str(step.sign), left + pad, middle, sign, line, turn, scale)
     x = left + pad + sign + gap
-    draw.add_text(imgui.ImVec2(x, middle - line / 2), packed(theme.text), step.text)
+    draw.add_text(imgui.ImVec2(x, middle - line / 2), packed(PICTURE.text), step.text)
     x += text + gap
     for number in range(len(STEPS)):
-        colour = theme.accent if number == guide.step else tinted(theme.text_dim, 0.7)
-        at = imgui.ImVec2(x + (number + 0.5) * 0.55 * line, middle)
-        draw.add_circle_filled(at, (0.14 if number == guide.step else 0.1) * line, packed(colour))
+        colour = PICTURE.accent if number == guide.step else tinted(PICTURE.text_dim, 0.7)
+        at = imgui.ImVec2(x + (number + 0.5) * 0.6 * line, middle)
+        draw.add_circle_filled(at, (0.19 if number == guide.step else 0.14) * line, packed(colour), 16)
 
 
 def _sign(
     draw: imgui.ImDrawList, kind: str, x: float, y: float, wide: float, line: float, turn: float, scale: float
 ) -> None:
     """Draw a small picture of what the hand does, at a part 0..1 of its motion."""
-    theme = THEMES["dark"]
-    accent, pale = packed(theme.accent), packed(tinted(theme.text, 0.75))
+    accent, pale = packed(PICTURE.accent), packed(tinted(PICTURE.text, 0.75))
     if kind == "press":
         middle = imgui.ImVec2(x + wide / 2, y)
         draw.add_circle_filled(middle, 0.26 * line, accent)
         radius, fading = (0.35 + 0.55 * turn) * line, 1.0 - turn
-        draw.add_circle(middle, radius, packed(tinted(theme.accent, fading)), 0, 1.5 * scale)
+        draw.add_circle(middle, radius, packed(tinted(PICTURE.accent, fading)), 0, 1.5 * scale)
     elif kind == "drag":
         eased = 0.5 - 0.5 * cos(pi * min(1.5 * turn, 1.0))
         start, end = x + 0.4 * line, x + (0.4 + 1.6 * eased) * line
@@ -179,7 +177,7 @@ def _sign(
         width, height = 0.9 * line, 1.3 * line
         left, top = x + (wide - width) / 2, y - height / 2
         centre, low = left + width / 2, top + 0.55 * height
-        lit = packed(tinted(theme.accent, 0.45 + 0.55 * (0.5 - 0.5 * cos(2 * pi * turn))))
+        lit = packed(tinted(PICTURE.accent, 0.45 + 0.55 * (0.5 - 0.5 * cos(2 * pi * turn))))
         draw.add_rect_filled(
             imgui.ImVec2(centre, top + scale), imgui.ImVec2(left + width - scale, low), lit, 2 * scale
         )

@@ -101,7 +101,7 @@ def keyboard_map(habit: Habit, theme: Theme, scale: float) -> bool:
     count = int(max(1, min(3, (room.x - padding) // (COLUMN * em + padding))))
     columns = in_columns(found, count)
     line = 1.55 * em
-    tall = max(height(column) for column in columns) * line
+    tall = (max(height(column) for column in columns) - 0.8) * line
     size = imgui.ImVec2(
         min(len(columns) * (COLUMN * em + padding) + padding, room.x), min(tall + 2 * padding, room.y)
     )
@@ -131,7 +131,7 @@ def keyboard_map(habit: Habit, theme: Theme, scale: float) -> bool:
         for section in column:
             _section(section, start.x + number * (wide + padding), y, wide, line, theme, scale)
             y += section.height * line
-    imgui.dummy(imgui.ImVec2(1, tall - 0.8 * line))
+    imgui.dummy(imgui.ImVec2(1, tall))
     stays = imgui.is_window_focused() and not imgui.is_key_pressed(imgui.Key.escape, False)
     imgui.end()
     return stays

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.core.heat import BEYOND, heat_colours, heat_scale, hex_colours
 from facepin.core.measures import percent
-from facepin.panels.theme import Colour, Theme, packed
+from facepin.panels.theme import PICTURE, VEIL, Colour, packed
 
 BANDS = 48
 """Pieces that the bar of colours is drawn in."""
@@ -17,7 +17,7 @@ MARGIN, PADDING, GAP = 10.0, 9.0, 6.0
 """Round the legend, inside of it, and between bar and numbers."""
 
 
-def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float, theme: Theme) -> None:
+def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float) -> None:
     """Draw the legend of the heat map at the lower right of a pane, unless the pane is tiny.
 
     Parameters
@@ -28,8 +28,6 @@ def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float
         Where the pane is, in framebuffer pixels.
     pixel_ratio, scale : float
         Framebuffer pixels per imgui unit, imgui units per pixel of a 1x screen.
-    theme : Theme
-        Colours.
     """
     ticks = heat_scale(height).ticks
     lengths = [f"{tick:.3g}" for tick in ticks]
@@ -46,9 +44,9 @@ def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float
         return
     draw = imgui.get_background_draw_list()
     left, top = right - width, bottom - tall
-    ground = packed(theme.panel, theme.veil)
+    ground = packed(PICTURE.panel, VEIL)
     draw.add_rect_filled(imgui.ImVec2(left, top), imgui.ImVec2(right, bottom), ground, 3 * scale)
-    draw.add_text(imgui.ImVec2(left + padding, top + padding), packed(theme.text), "Moved")
+    draw.add_text(imgui.ImVec2(left + padding, top + padding), packed(PICTURE.text), "Moved")
 
     colours = _bands()
     start = left + padding + widths[0] + gap
@@ -71,9 +69,9 @@ def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float
     for at, (length, share) in enumerate(zip(lengths, shares, strict=True)):
         y = floor - at * bar_height / (len(ticks) - 1)
         x = start - gap - imgui.calc_text_size(length).x
-        draw.add_text(imgui.ImVec2(x, y - line / 2), packed(theme.text), length)
-        draw.add_text(imgui.ImVec2(end + gap, y - line / 2), packed(theme.text_dim), share)
-        draw.add_line(imgui.ImVec2(end, y), imgui.ImVec2(end + 3 * scale, y), packed(theme.text_dim), scale)
+        draw.add_text(imgui.ImVec2(x, y - line / 2), packed(PICTURE.text), length)
+        draw.add_text(imgui.ImVec2(end + gap, y - line / 2), packed(PICTURE.text_dim), share)
+        draw.add_line(imgui.ImVec2(end, y), imgui.ImVec2(end + 3 * scale, y), packed(PICTURE.text_dim), scale)
 
 
 @cache

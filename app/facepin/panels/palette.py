@@ -57,7 +57,7 @@ def entries(view: View, session: Session | None, recent: Sequence[Path]) -> list
     """List all actions there are, in the order of the table of commands; then what has a few values each."""
     found = [_command(command, view, session) for command in Command if command is not Command.PALETTE]
     if session is not None:
-        found += _solvers(session)
+        found += _solvers(view, session)
     for name, choice in CHOICES.items():
         for value, title in choice.values.items():
             on = getattr(view, name) == value
@@ -78,16 +78,17 @@ def _command(command: Command, view: View, session: Session | None) -> Entry:
     return Entry(title, command.topic, command, command.help, key, reason)
 
 
-def _solvers(session: Session) -> list[Entry]:
+def _solvers(view: View, session: Session) -> list[Entry]:
     """List what can be done with solvers, panes and random references."""
     kind, keep = session.pane.choice.kind, session.pane.choice.keep_limits
+    used = view.panes[session.active].choices
     full = f"there are {MOST_PANES} panes" if len(session.panes) >= MOST_PANES else ""
     alone = "" if len(session.panes) > 1 else "there is one pane"
     found = [
         Entry(
             f"Solver: {other.title}",
             "Solver",
-            UseSolver(session.active, choose(key, keep_limits=keep)),
+            UseSolver(session.active, used.get(key) or choose(key, keep_limits=keep)),
             other.summary,
             on=other is kind,
         )
@@ -177,8 +178,8 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
     imgui.pop_style_var()
     imgui.pop_style_color()
     if state.fresh:
-        imgui.set_keyboard_focus_here()
         imgui.set_window_focus()
+        imgui.set_keyboard_focus_here()
     leaves = not state.fresh and not imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows)
     state.fresh = False
     imgui.set_next_item_width(-1)
@@ -203,7 +204,7 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
         return None
     chosen = fitting[state.row][0]
     if chosen.reason:
-        imgui.set_keyboard_focus_here(-1)
+        state.fresh = True  # Enter has left the field
         return None
     view.palette = None
     name = _plain(chosen)

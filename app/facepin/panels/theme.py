@@ -34,8 +34,6 @@ class Theme:
     border: Colour
     ink: Colour
     """White or black: what a thing is covered with, thinly, to set it off from its ground."""
-    veil: float
-    """Opacity of labels over the picture."""
     series: tuple[float, float]
     """Of a solver's colour: how far it goes towards `ink`, and how much further for each one alike."""
 
@@ -53,13 +51,12 @@ THEMES: dict[ThemeName, Theme] = {
         text_dim=(0.65, 0.66, 0.69, 1.0),
         panel=(0.125, 0.129, 0.141, 1.0),
         bar=(0.07, 0.072, 0.08, 1.0),
-        popup=(0.105, 0.109, 0.12, 0.98),
+        popup=(0.105, 0.109, 0.12, 1.0),
         frame=(0.185, 0.191, 0.208, 1.0),
         frame_hovered=(0.235, 0.243, 0.264, 1.0),
         frame_active=(0.285, 0.295, 0.320, 1.0),
         border=(0.07, 0.072, 0.08, 1.0),
         ink=(1.0, 1.0, 1.0, 1.0),
-        veil=0.72,
         series=(0.3, 0.25),
     ),
     "light": Theme(
@@ -69,17 +66,22 @@ THEMES: dict[ThemeName, Theme] = {
         text_dim=(0.33, 0.34, 0.37, 1.0),
         panel=(0.925, 0.927, 0.935, 1.0),
         bar=(0.885, 0.888, 0.897, 1.0),
-        popup=(0.97, 0.971, 0.976, 0.99),
+        popup=(0.97, 0.971, 0.976, 1.0),
         frame=(0.85, 0.855, 0.868, 1.0),
         frame_hovered=(0.81, 0.817, 0.835, 1.0),
         frame_active=(0.765, 0.773, 0.795, 1.0),
         border=(0.72, 0.727, 0.745, 1.0),
         ink=(0.0, 0.0, 0.0, 1.0),
-        veil=0.92,
         series=(0.4, 0.15),
     ),
 }
 """Text has a contrast of at least 4.5 on all that it stands on (WCAG AA); a test computes it."""
+
+PICTURE = THEMES["dark"]
+"""Of what stands over the picture.  The studio wall is dark in every theme: so that a face is always judged
+before the same ground."""
+VEIL = 0.72
+"""Opacity of grounds over the picture."""
 
 FONT_SIZE = 15.0
 """Height of text in pixels at 1x scale."""

@@ -10,14 +10,19 @@ from facepin.core.pose import Pose
 from facepin.desk import Desk
 from facepin.panels import layout
 from facepin.panels.chart import chart_window
+from facepin.panels.hand import draw_gesture, hidden_pins, pin_label
 from facepin.panels.legend import heat_legend
-from facepin.panels.menu import menu_bar, pin_menu
+from facepin.panels.menu import menu_bar
 from facepin.panels.pane_title import pane_title
-from facepin.panels.requests import Request
+from facepin.panels.pin_menu import pin_menu
+from facepin.panels.pins import pins_panel, together
+from facepin.panels.requests import Command, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import hint, loading_card, status_line
 from facepin.panels.theme import pane_colours
 from facepin.panels.weights import weights_panel
+from facepin.session.session import Session
+from facepin.stage import Stage
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
@@ -65,6 +70,15 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     if imgui.begin(layout.SOLVER)[0] and session is not None:
         request = solver_panel(session.rig, session.pane, session.active, desk.view.panes[session.active])
     imgui.end()
+    layout.without_background(layout.PINS)
+    layout.beside(layout.PINS, layout.SOLVER)
+    of_pins: Request | None = None
+    if imgui.begin(layout.PINS)[0] and session is not None and desk.stage is not None:
+        pins, positions = session.pose.pins, desk.stage.positions(session.active)
+        of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins)
+        if desk.view.pins.hovered is not None:
+            desk.tool.hovered = desk.view.pins.hovered
+    imgui.end()
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
         edit = weights_panel(
@@ -81,7 +95,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     chart: Request | None = None
     if desk.view.chart and session is not None:
         desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
-    return [asked for asked in (request, chart) if asked is not None]
+    return [asked for asked in (request, of_pins, chart) if asked is not None]
 
 
 def over_picture(
@@ -110,9 +124,34 @@ def over_picture(
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.heat:
             heat_legend(session.rig.height, place, pixel_ratio, scale)
-    if not session.pose.pins and not session.pose.weights.any():
-        hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
+    if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
+        asked.append(chip)
     return asked
+
+
+def _hand(
+    desk: Desk,
+    session: Session,
+    stage: Stage,
+    viewport: Viewport,
+    viewports: Sequence[Viewport],
+    pixel_ratio: float,
+    scale: float,
+) -> Command | None:
+    """Draw what concerns the pins over the picture, and what to do with the hand."""
+    draw_gesture(desk.tool.gesture, pixel_ratio, scale)
+    pins = session.pose.pins
+    hovered = next((pin for pin in pins if pin.vertex == desk.tool.hovered and not pin.hidden), None)
+    if hovered is not None and not desk.tool.holding:
+        for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
+            pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
+    if desk.view.pins.sketching:
+        words = f"Draw on the face to lay {desk.view.pins.stroke} pins along the line, then drag one of them"
+        hint(f"{words} ({Command.SKETCH_PINS.shortcuts[0]} or Esc: single pins)", viewport, pixel_ratio)
+    elif not pins and not session.pose.weights.any():
+        hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
+    hidden = sum(pin.hidden for pin in pins)
+    return hidden_pins(hidden, viewport, pixel_ratio, scale) if hidden else None
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
@@ -126,6 +165,7 @@ def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
     if pin is None or not imgui.begin_popup("pin menu"):
         desk.view.pin_menu = None
         return None
-    request = pin_menu(pin)
+    vertices = together(pin, desk.tool.selected)
+    request = pin_menu(pin, [other for other in pose.pins if other.vertex in vertices])
     imgui.end_popup()
     return request

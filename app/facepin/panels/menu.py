@@ -1,12 +1,14 @@
-"""The menu bar and the menu of a pin."""
+"""The menu bar."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
 from imgui_bundle import imgui
 
-from facepin.core.pose import Freedom, Pin
+from facepin.core.pose import Pin
 from facepin.panels.overlays import close_on_escape, overlay_items
+from facepin.panels.pin_menu import FREEDOMS
+from facepin.panels.pins import STROKES
 from facepin.panels.requests import (
     AddPane,
     ClosePane,
@@ -15,17 +17,11 @@ from facepin.panels.requests import (
     OpenPath,
     RandomReference,
     Request,
-    SetPin,
 )
 from facepin.panels.view import View
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
 from facepin.solvers import SOLVERS
-
-FREEDOMS: dict[Freedom, str] = {
-    "space": "Hold in space (x, y and z)",
-    "screen": "Hold on screen (depth free)",
-}
 
 RANDOM_SHAPES = (1, 2, 4, 8, 12)
 """Sizes of random reference poses on offer."""
@@ -45,7 +41,6 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     """
     undo = session.undo_label if session else None
     redo = session.redo_label if session else None
-    pins = len(session.pose.pins) if session else 0
     asked: Request | None = None
     if not imgui.begin_main_menu_bar():
         return None
@@ -70,15 +65,11 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         asked = _item(Command.UNDO, undo is not None, undo) or asked
         asked = _item(Command.REDO, redo is not None, redo) or asked
         imgui.separator()
-        asked = _item(Command.DELETE_PINS, bool(pins)) or asked
-        asked = _item(Command.CLEAR_PINS, bool(pins)) or asked
         asked = _item(Command.RESET_POSE) or asked
-        imgui.separator()
-        if imgui.begin_menu("New pins"):
-            for freedom, title in FREEDOMS.items():
-                if imgui.menu_item_simple(title, selected=view.freedom == freedom):
-                    view.freedom = freedom
-            imgui.end_menu()
+        imgui.end_menu()
+    if imgui.begin_menu("Pins", session is not None) and session is not None:
+        close_on_escape()
+        asked = _pins(view, session.pose.pins) or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()
@@ -136,24 +127,30 @@ def _compare(view: View, session: Session) -> Request | None:
     return _item(Command.CHART) or asked
 
 
-def pin_menu(pin: Pin) -> SetPin | None:
-    """Draw the inside of the menu of a pin; return what the user changes, or None."""
-    request = None
-    close_on_escape()
-    imgui.text_disabled(f"Pin on vertex {pin.vertex}")
+def _pins(view: View, pins: Sequence[Pin]) -> Command | None:
+    """Draw the inside of the menu of pins."""
+    asked: Command | None = None
+    for command in (Command.SELECT_PINS, Command.LOCK_PINS, Command.HIDE_PINS, Command.DELETE_PINS):
+        asked = _item(command, bool(pins)) or asked
+    asked = _item(Command.SHOW_PINS, any(pin.hidden for pin in pins)) or asked
+    asked = _item(Command.CLEAR_PINS, bool(pins)) or asked
     imgui.separator()
-    for freedom, title in FREEDOMS.items():
-        if imgui.menu_item_simple(title, selected=pin.freedom == freedom) and pin.freedom != freedom:
-            request = SetPin(pin.vertex, freedom=freedom)
-    imgui.set_next_item_width(9 * imgui.get_font_size())
-    flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
-    changed, stiffness = imgui.slider_float("stiffness", pin.stiffness, 0.01, 100.0, "%.2f", flags)
-    if changed or imgui.is_item_deactivated_after_edit():
-        request = SetPin(pin.vertex, stiffness=stiffness, final=imgui.is_item_deactivated_after_edit())
+    if imgui.begin_menu("New pins"):
+        for freedom, title in FREEDOMS.items():
+            if imgui.menu_item_simple(title, selected=view.freedom == freedom):
+                view.freedom = freedom
+        imgui.end_menu()
+    shortcut = Command.SKETCH_PINS.shortcuts[0]
+    if imgui.menu_item_simple(Command.SKETCH_PINS.title, shortcut, selected=view.pins.sketching):
+        asked = Command.SKETCH_PINS
+    if imgui.begin_menu("Pins along a stroke"):
+        for count in range(STROKES[0], STROKES[1] + 1):
+            if imgui.menu_item_simple(str(count), selected=view.pins.stroke == count):
+                view.pins.stroke = count
+        imgui.end_menu()
     imgui.separator()
-    if imgui.menu_item_simple("Remove", "Delete"):
-        request = SetPin(pin.vertex, remove=True)
-    return request
+    asked = _item(Command.SAVE_LANDMARKS, any(pin.name for pin in pins)) or asked
+    return _item(Command.LOAD_LANDMARKS) or asked
 
 
 def _item(command: Command, enabled: bool = True, detail: str | None = None) -> Command | None:

@@ -24,8 +24,15 @@ class Command(Enum):
     UNDO = "Undo", ("Ctrl+Z",)
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y")
     RESET_POSE = "Reset the pose", ("Home",)
+    SELECT_PINS = "Select all pins", ("Ctrl+A",)
     DELETE_PINS = "Remove selected pins", ("Delete", "Backspace")
     CLEAR_PINS = "Remove all pins", ()
+    LOCK_PINS = "Lock or unlock selected pins", ("L",)
+    HIDE_PINS = "Hide selected pins", ("Ctrl+H",)
+    SHOW_PINS = "Show hidden pins", ("Alt+H",)
+    SKETCH_PINS = "Sketch strokes of pins", ("B",)
+    SAVE_LANDMARKS = "Save landmarks…", ()
+    LOAD_LANDMARKS = "Load landmarks…", ()
     FRAME = "Frame the face", ("F",)
     FRONT = "Front", ("1", "Numpad 1")
     LEFT = "Character's left", ("3", "Numpad 3")
@@ -125,14 +132,38 @@ class KeepPane:
 
 
 @dataclass(frozen=True)
-class SetPin:
-    """Change what the pin at a vertex constrains."""
+class SetPins:
+    """Change the pins on some vertices; what is None stays as it is."""
 
-    vertex: int
+    vertices: frozenset[int]
     freedom: Freedom | None = None
     stiffness: float | None = None
-    remove: bool = False
+    locked: bool | None = None
+    hidden: bool | None = None
     final: bool = True
+    """False while a setting is being slid."""
+
+
+@dataclass(frozen=True)
+class NamePin:
+    """Call the pin on a vertex by another name; an empty one takes its name away."""
+
+    vertex: int
+    name: str
+
+
+@dataclass(frozen=True)
+class RemovePins:
+    """Remove the pins on some vertices."""
+
+    vertices: frozenset[int]
+
+
+@dataclass(frozen=True)
+class SelectPins:
+    """Select the pins on some vertices, and no others."""
+
+    vertices: frozenset[int]
 
 
 @dataclass(frozen=True)
@@ -149,6 +180,9 @@ Request = (
     | ClosePane
     | KeepPane
     | RandomReference
-    | SetPin
+    | SetPins
+    | NamePin
+    | RemovePins
+    | SelectPins
     | CancelLoading
 )

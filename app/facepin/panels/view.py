@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from facepin.core.pose import Freedom
+from facepin.panels.pins import PinsView
 from facepin.panels.weights import WeightsView
 
 Quality = Literal["auto", "always", "off"]
@@ -47,6 +48,7 @@ class View:
     }
 
     weights: WeightsView = field(default_factory=WeightsView)
+    pins: PinsView = field(default_factory=PinsView)
     freedom: Freedom = "space"
     """What new pins constrain."""
     quality: Quality = "auto"

@@ -1,7 +1,7 @@
 """From pins to weights: puts a rig's pins before a solver and reads its answer back."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any
 
@@ -135,8 +135,5 @@ def snapped(rig: Rig, pose: Pose) -> Pose:
     vertices = [pin.vertex for pin in pose.pins]
     places = (rig.rows_at(vertices) @ pose.weights).reshape(-1, 3) + rig.neutral[vertices]
     return pose.with_pins(
-        tuple(
-            Pin(pin.vertex, as_vector(place), pin.freedom, pin.axes, pin.stiffness)
-            for pin, place in zip(pose.pins, places, strict=True)
-        )
+        tuple(replace(pin, goal=as_vector(place)) for pin, place in zip(pose.pins, places, strict=True))
     )

@@ -51,7 +51,7 @@ def pin_menu(pin: Pin, pins: Collection[Pin]) -> Request | None:
         request = SetPins(vertices, stiffness=stiffness, final=finished)
     imgui.separator()
     locked = all(other.locked for other in pins)
-    if imgui.menu_item_simple("Locked", Command.LOCK_PINS.shortcuts[0], selected=locked):
+    if imgui.menu_item_simple("Unlock" if locked else "Lock", Command.LOCK_PINS.shortcuts[0]):
         request = SetPins(vertices, locked=not locked)
     imgui.set_item_tooltip("A locked pin still holds, but can't be dragged or removed")
     if imgui.menu_item_simple("Hide", Command.HIDE_PINS.shortcuts[0]):

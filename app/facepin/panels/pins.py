@@ -1,6 +1,6 @@
 """The list of pins: what each is called, what it holds and how far its vertex is from its goal."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from imgui_bundle import imgui
@@ -19,6 +19,8 @@ STROKES = (2, 15)
 """Fewest and most pins of a stroke."""
 SOFTEST, STIFFEST = 0.01, 100.0
 """Ends of what sliders offer; a file may go further."""
+DRAG_SPEED = 0.25
+"""Of a stiffness that is dragged: about 2 % per pixel."""
 _OTHER: dict[Freedom, Freedom] = {"space": "screen", "screen": "space"}
 
 
@@ -78,7 +80,7 @@ def pins_panel(
         if imgui.button(Command.LOAD_LANDMARKS.title):
             request = Command.LOAD_LANDMARKS
         return request
-    flags = imgui.TableFlags_.scroll_y | imgui.TableFlags_.sizing_fixed_fit | imgui.TableFlags_.no_pad_outer_x
+    flags = imgui.TableFlags_.scroll_y | imgui.TableFlags_.sizing_fixed_fit | imgui.TableFlags_.pad_outer_x
     if not imgui.begin_table("pins", 6, flags):
         return request
     imgui.table_setup_scroll_freeze(0, 1)
@@ -126,7 +128,7 @@ def _head(pins: tuple[Pin, ...], selected: Collection[int], view: PinsView) -> R
 
 
 def _titles() -> None:
-    imgui.table_next_row(imgui.TableRowFlags_.headers)
+    imgui.table_next_row()
     for column in range(6):
         imgui.table_set_column_index(column)
         imgui.text_disabled(imgui.table_get_column_name(column).split("##")[0])
@@ -150,7 +152,9 @@ def _row(
     imgui.table_next_column()
     imgui.set_next_item_width(-1)
     flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
-    changed, stiffness = imgui.drag_float("##stiff", pin.stiffness, 0.01, SOFTEST, STIFFEST, "%.3g", flags)
+    changed, stiffness = imgui.drag_float(
+        "##stiff", pin.stiffness, DRAG_SPEED, SOFTEST, STIFFEST, "%.3g", flags
+    )
     finished = imgui.is_item_deactivated_after_edit()
     if changed or finished:
         request = SetPins(vertices, stiffness=stiffness, final=finished)
@@ -187,6 +191,7 @@ def _name(pins: tuple[Pin, ...], row: int, selected: Collection[int], view: Pins
     clicked, _ = imgui.selectable(f"{pin.title}###row", pin.vertex in selected, flags, size)
     imgui.pop_style_color()
     imgui.pop_style_var()
+    imgui.set_item_tooltip(f"{pin.title}\nDouble click: another name")
     if imgui.is_item_hovered():
         view.hovered = pin.vertex
     if not clicked:
@@ -194,18 +199,42 @@ def _name(pins: tuple[Pin, ...], row: int, selected: Collection[int], view: Pins
     if imgui.is_mouse_double_clicked(0):
         view._renaming, view._typed, view._begins = pin.vertex, pin.name, True
         return None
-    return _selected(pins, row, selected, view)
+    keys, vertices = imgui.get_io(), [other.vertex for other in pins]
+    now = picked(vertices, row, selected, view._anchor, shift=keys.key_shift, ctrl=keys.key_ctrl)
+    if not keys.key_shift:
+        view._anchor = pin.vertex
+    return SelectPins(now)
 
 
-def _selected(pins: tuple[Pin, ...], row: int, selected: Collection[int], view: PinsView) -> SelectPins:
-    """Return what a click on a row selects: Ctrl adds it or takes it out, Shift takes all up to it."""
-    vertex, keys = pins[row].vertex, imgui.get_io()
-    vertices = [pin.vertex for pin in pins]
-    if keys.key_shift and view._anchor in vertices:
-        ends = sorted((vertices.index(view._anchor), row))
-        return SelectPins(frozenset(vertices[ends[0] : ends[1] + 1]))
-    view._anchor = vertex
-    return SelectPins(frozenset(selected) ^ {vertex} if keys.key_ctrl else frozenset({vertex}))
+def picked(
+    vertices: Sequence[int],
+    row: int,
+    selected: Collection[int],
+    anchor: int | None,
+    *,
+    shift: bool,
+    ctrl: bool,
+) -> frozenset[int]:
+    """Return what is selected after a click on a row of a list.
+
+    Parameters
+    ----------
+    vertices : sequence of int
+        One per row.
+    row : int
+        The one that was clicked.
+    selected : vertices
+        Selected so far.
+    anchor : int
+        Vertex of the row that was clicked before.
+    shift, ctrl : bool
+        Shift selects all from the anchor to the row; Ctrl adds the row to the others, or takes it out.
+    """
+    if shift and anchor in vertices:
+        first, last = sorted((vertices.index(anchor), row))
+        return frozenset(vertices[first : last + 1])
+    one = frozenset({vertices[row]})
+    return frozenset(selected) ^ one if ctrl else one
 
 
 def _typed_name(pin: Pin, view: PinsView) -> NamePin | None:

@@ -23,8 +23,8 @@ float to_segment(vec2 p, vec2 a, vec2 b)
 // As far as from the middle of a disc that just fits round a square with soft corners.
 float to_square(vec2 p, float radius)
 {
-    vec2 out_of = abs(p) - 0.62 * radius;
-    return length(max(out_of, 0.0)) + min(max(out_of.x, out_of.y), 0.0) + 0.74 * radius;
+    vec2 out_of = abs(p) - 0.70 * radius;
+    return length(max(out_of, 0.0)) + min(max(out_of.x, out_of.y), 0.0) + 0.82 * radius;
 }
 
 // How much of the pixel lies within `edge` of the centre line.

@@ -30,7 +30,6 @@ def prepare_tied(system: PinSystem, ridge: float) -> Minimise:
     tied, other = np.array(ties).T
     # The largest second derivative along one weight tells where to look for μ.
     curvature = float(np.einsum("ij,ij->j", system.rows, system.rows).max(initial=0.0)) + ridge
-
     known = [_Known(0.0, -1.0 / curvature if curvature > 0 else -1.0) for _ in ties]
 
     def obeying(displacement: Floats, start: Floats, price: Price) -> Minimum:

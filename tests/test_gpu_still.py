@@ -46,7 +46,7 @@ class Drag:
     def draw(self, *sights: tuple[Viewport, Camera]) -> np.ndarray:
         self.still.draw(self.canvas, sights, self.meshes)
         for mesh, (viewport, camera) in zip(self.meshes, sights, strict=True):
-            framing = frame(camera, viewport, SIZE[1])
+            framing = frame(camera, viewport)
             mesh.draw_framed(self.canvas, framing, fine=False, part="moving")
         return self.canvas.read().astype(int)
 

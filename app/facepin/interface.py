@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from time import perf_counter
 
 from imgui_bundle import imgui
 
@@ -9,23 +10,27 @@ from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.desk import Desk
 from facepin.panels import layout
+from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
-from facepin.panels.hand import draw_gesture, hidden_pins, pin_label
+from facepin.panels.guide import Hand, draw_guide
+from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint
+from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
 from facepin.panels.menu import menu_bar
+from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import pins_panel, together
-from facepin.panels.requests import Command, Request
+from facepin.panels.requests import Command, Request, key_of
 from facepin.panels.solver import solver_panel
-from facepin.panels.status import hint, loading_card, status_line
-from facepin.panels.theme import pane_colours
+from facepin.panels.status import loading_card, status_line
+from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.panels.weights import weights_panel
 from facepin.session.session import Session
 from facepin.stage import Stage
 
 
-def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
+def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> list[Request]:
     """Draw menu bar and status line, and what floats over everything.
 
     Parameters
@@ -36,21 +41,29 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
         Rigs opened lately.
     seconds : float
         Time of the last frame.
+    scale : float
+        imgui units per pixel of a 1x screen.
     """
-    session = desk.session
-    asked = [menu_bar(desk.view, recent, session)]
+    session, view = desk.session, desk.view
+    asked: list[Request | None] = [menu_bar(desk.view, recent, session)]
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
         timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
-    status_line(rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ())
+    warnings = rig.warnings if rig else ()
+    status_line(rig, timing, desk.message, view.theme, is_error=desk.is_error, warnings=warnings)
     if desk.loading is not None and desk.loading.is_long:
         asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
     if desk.dialog is not None:
         desk.dialog.draw()
     if session is not None:
         asked.append(_pin_popup(desk, session.pose))
+    asked.append(palette(view, session, recent, scale))
+    if view.keyboard:
+        view.keyboard = keyboard_map(view.habit, view.theme, scale)
+    if view.about:
+        view.about = about_window(desk.graphics, scale)
     return [request for request in asked if request is not None]
 
 
@@ -64,18 +77,25 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     scale : float
         imgui units per pixel of a 1x screen.
     """
-    session = desk.session
+    session, theme = desk.session, desk.view.theme
     request = edit = None
     layout.without_background(layout.SOLVER)
     if imgui.begin(layout.SOLVER)[0] and session is not None:
-        request = solver_panel(session.rig, session.pane, session.active, desk.view.panes[session.active])
+        request = solver_panel(
+            session.rig,
+            session.control,
+            session.pane,
+            session.active,
+            desk.view.panes[session.active],
+            theme,
+        )
     imgui.end()
     layout.without_background(layout.PINS)
     layout.beside(layout.PINS, layout.SOLVER)
     of_pins: Request | None = None
     if imgui.begin(layout.PINS)[0] and session is not None and desk.stage is not None:
         pins, positions = session.pose.pins, desk.stage.positions(session.active)
-        of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins)
+        of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins, theme)
         if desk.view.pins.hovered is not None:
             desk.tool.hovered = desk.view.pins.hovered
     imgui.end()
@@ -83,10 +103,12 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
         edit = weights_panel(
             session.rig,
+            session.control,
             session.panes,
             session.active,
             desk.view.weights,
             scale,
+            theme,
             in_gesture=session.in_gesture,
         )
     imgui.end()
@@ -94,7 +116,9 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         desk.apply(edit)
     chart: Request | None = None
     if desk.view.chart and session is not None:
-        desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
+        desk.view.chart, chart = chart_window(
+            session.rig, session.panes, session.work.reference, scale, theme
+        )
     return [asked for asked in (request, of_pins, chart) if asked is not None]
 
 
@@ -107,7 +131,8 @@ def over_picture(
         return []
     asked: list[Request] = []
     if len(viewports) > 1:
-        colours = pane_colours([pane.choice.kind.key for pane in session.panes])
+        _seams(viewport, viewports, pixel_ratio, scale)
+        colours = pane_colours(PICTURE, [pane.choice.kind.key for pane in session.panes])
         for at, (pane, place) in enumerate(zip(session.panes, viewports, strict=False)):
             asked += pane_title(
                 at,
@@ -117,6 +142,7 @@ def over_picture(
                 place,
                 pixel_ratio,
                 scale,
+                habit=desk.view.habit,
                 colour=colours[at],
                 active=at == session.active,
                 has_reference=session.work.reference is not None,
@@ -126,7 +152,44 @@ def over_picture(
             heat_legend(session.rig.height, place, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)
+    elif not desk.view.pins.sketching:
+        _first_steps(desk, session, viewport, pixel_ratio, scale)
     return asked
+
+
+def _seams(viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float) -> None:
+    """Draw the gaps between panes as dark as what is beside them, whatever the theme."""
+
+    def corner(x: float, y: float) -> imgui.ImVec2:
+        return imgui.ImVec2(x / pixel_ratio, y / pixel_ratio)
+
+    draw = imgui.get_background_draw_list()
+    right, bottom = viewport.x + viewport.width, viewport.y + viewport.height
+    draw.push_clip_rect(corner(viewport.x, viewport.y), corner(right, bottom), False)
+    for at in viewports:
+        half = scale * pixel_ratio
+        upper = corner(at.x - half, at.y - half)
+        lower = corner(at.x + at.width + half, at.y + at.height + half)
+        draw.add_rect(upper, lower, packed(PICTURE.bar), 0.0, thickness=2 * scale)
+    draw.pop_clip_rect()
+
+
+def _first_steps(desk: Desk, session: Session, viewport: Viewport, pixel_ratio: float, scale: float) -> None:
+    """Lead a newcomer on, until the first steps are done."""
+    view = desk.view
+    if view.guide.over:
+        return
+    hand = Hand(
+        pins=bool(session.pose.pins),
+        posed=bool(session.pose.weights.any()),
+        pin_menu=view.pin_menu is not None,
+        undone=session.redo_label is not None,
+        searched=view.palette is not None or view.keyboard,
+        work=session.committed,
+    )
+    now = perf_counter()
+    view.guide.watch(hand, now)
+    draw_guide(view.guide, now, view.habit, viewport, pixel_ratio, scale)
 
 
 def _hand(
@@ -138,7 +201,7 @@ def _hand(
     pixel_ratio: float,
     scale: float,
 ) -> Command | None:
-    """Draw what concerns the pins over the picture, and what to do with the hand."""
+    """Draw what concerns the pins over the picture."""
     draw_gesture(desk.tool.gesture, pixel_ratio, scale)
     pins = session.pose.pins
     hovered = next((pin for pin in pins if pin.vertex == desk.tool.hovered and not pin.hidden), None)
@@ -146,10 +209,8 @@ def _hand(
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
             pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
-        words = f"Draw on the face to lay {desk.view.pins.stroke} pins along the line, then drag one of them"
-        hint(f"{words} ({Command.SKETCH_PINS.shortcuts[0]} or Esc: single pins)", viewport, pixel_ratio)
-    elif not pins and not session.pose.weights.any():
-        hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
+        key = key_of(Command.SKETCH_PINS, desk.view.habit)
+        sketch_hint(desk.view.pins.stroke, key, viewport, pixel_ratio)
     hidden = sum(pin.hidden for pin in pins)
     return hidden_pins(hidden, viewport, pixel_ratio, scale) if hidden else None
 

@@ -22,7 +22,7 @@ from facepin.options import BUILTIN
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Command
-from facepin.panels.theme import PANEL, apply_theme
+from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.resources import resource
 from facepin.routing import Router
@@ -38,6 +38,8 @@ SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
 HOVER_DELAY = 0.2
 """Seconds after the last event when imgui is given another look: it explains what the mouse rests on."""
+ICON_SIZES = (16, 32, 48, 256)
+"""Pixels per side of the icon, for whoever shows it."""
 PANE_GAP = 2.0
 """Pixels between panes at 1x scale."""
 
@@ -80,8 +82,9 @@ class Frame:
 
 def run(window: Window, start: Start) -> None:
     """Show the window until the user closes it."""
-    for _ in frames(window, start):
-        pass
+    for number, _ in enumerate(frames(window, start)):
+        if number == 1:  # what the first picture can do without comes after it
+            window.set_icons([resource("assets", f"icon/facepin-{size}.png") for size in ICON_SIZES])
 
 
 def frames(window: Window, start: Start) -> Iterator[Frame]:
@@ -90,7 +93,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     However it ends, a pose that nobody saved is kept, and the next start says where.
     """
     view = View()
-    rough, smooth = Canvas(window.ctx, 0), Canvas(window.ctx, 4)
+    rough, smooth = Canvas(window.ctx, 0, window.texture), Canvas(window.ctx, 4, window.texture)
     desk = Desk(
         window.ctx,
         view,
@@ -118,6 +121,10 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
     preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
     preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
     view.freedom, view.quality, view.ui_scale = preferences.freedom, preferences.quality, preferences.ui_scale
+    view.theme_name, view.habit, view.lately = preferences.theme, preferences.habit, preferences.lately
+    view.guide.step = preferences.guide
+    # Nobody is shown moving pictures at every start because nothing is remembered.
+    view.guide.lively = preferences_file is not None
     _set_up_imgui(start.settings_folder)
     software = _is_software(window.ctx)
     router = Router()
@@ -131,6 +138,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
     viewports: tuple[Viewport, ...] = (viewport,)
     desk.viewport = viewport
     scale: float | None = None
+    theme: Theme | None = None
     drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
     look_again: float | None = None
@@ -139,7 +147,8 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        busy = desk.loading is not None or desk.dialog is not None or desk.tool.nudging
+        waiting = desk.loading is not None or desk.dialog is not None
+        busy = waiting or desk.tool.nudging or view.guide.moving(began)
         settling = SETTLE if events or busy else settling - 1
         if 0 in window.size:
             # Minimised: there is nothing to draw on, and imgui would fold its panels up.
@@ -167,14 +176,17 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         if window.scale * view.ui_scale / window.pixel_ratio != scale:
             reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
             scale = window.scale * view.ui_scale / window.pixel_ratio
-            apply_theme(scale)
+            theme = None
+        if view.theme is not theme:
+            theme = view.theme
+            apply_theme(theme, scale)
         desk.poll()
         desk.sync()
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.
         asked = router.take(events, desk, viewports, window.scale)
-        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds)
+        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         reset_layout = False
@@ -198,12 +210,12 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
                     desk.tool,
                     window.scale,
                     fine=canvas is smooth,
+                    beside=theme.panel,
                 )
                 drawn = wanted
-            window.show(canvas.overlay, viewport)
-            window.fill_beside(PANEL, viewport)
+            window.show(canvas.flat())
         else:
-            window.clear(PANEL)
+            window.clear(theme.panel)
         window.end_frame()
         seconds = perf_counter() - began
 
@@ -227,7 +239,17 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
 def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
     """Return what to remember for the next run."""
     view = desk.view
-    found = replace(preferences, freedom=view.freedom, quality=view.quality, ui_scale=view.ui_scale, kept="")
+    found = replace(
+        preferences,
+        freedom=view.freedom,
+        quality=view.quality,
+        ui_scale=view.ui_scale,
+        theme=view.theme_name,
+        habit=view.habit,
+        guide=view.guide.step,
+        lately=view.lately,
+        kept="",
+    )
     if desk.opened is not None:
         found = found.opened(desk.opened)
     if desk.session is not None:
@@ -267,4 +289,5 @@ def _picture_key(
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
     hands = (tool.selected, tool.hovered, tool.held)
-    return (stage, stage.refined, work, canvas, size, viewports, tuple(desk.cameras), overlays, hands)
+    seen = (canvas, size, viewports, tuple(desk.cameras), desk.view.theme)
+    return (stage, stage.refined, work, *seen, overlays, hands)

@@ -5,7 +5,16 @@ Each has `act(request, desk)`, which does what was asked and says whether it was
 
 from collections.abc import Callable
 
-from facepin.actions import comparing, files, landmarks, pinning, posing, viewing
+from facepin.actions import (
+    comparing,
+    files,
+    helping,
+    landmarks,
+    mirroring,
+    pinning,
+    posing,
+    viewing,
+)
 from facepin.desk import Desk
 from facepin.panels.requests import Request
 
@@ -14,8 +23,10 @@ TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
     files.act,
     posing.act,
     pinning.act,
+    mirroring.act,
     comparing.act,
     viewing.act,
+    helping.act,
 )
 
 

@@ -8,7 +8,7 @@ from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.pose import Pin
 from facepin.panels.requests import Command
-from facepin.panels.theme import ACCENT, TEXT, packed
+from facepin.panels.theme import PICTURE, packed
 from facepin.session.box import Box
 from facepin.session.gesture import Gesture
 from facepin.session.stroke import Stroke
@@ -33,14 +33,14 @@ def draw_gesture(gesture: Gesture | None, pixel_ratio: float, scale: float) -> N
             low = imgui.ImVec2(min(first.x, last.x), min(first.y, last.y))
             high = imgui.ImVec2(max(first.x, last.x), max(first.y, last.y))
             _clip(draw, gesture.sight.viewport, pixel_ratio)
-            draw.add_rect_filled(low, high, packed(ACCENT, 0.10))
-            draw.add_rect(low, high, packed(ACCENT, 0.9), 0.0, scale)
+            draw.add_rect_filled(low, high, packed(PICTURE.accent, 0.10))
+            draw.add_rect(low, high, packed(PICTURE.accent, 0.9), 0.0, scale)
             draw.pop_clip_rect()
         case Stroke():
             # One line per stretch on the face: across the wall behind it there is none.
             for stretch in _stretches(gesture):
                 points: list[imgui.ImVec2Like] = [(x / pixel_ratio, y / pixel_ratio) for x, y in stretch]
-                for colour, width in ((packed((0, 0, 0, 0.5)), 5.0), (packed(ACCENT), 2.5)):
+                for colour, width in ((packed((0, 0, 0, 0.5)), 5.0), (packed(PICTURE.accent), 2.5)):
                     draw.add_polyline(points, colour, width * scale, 0)
         case _:
             pass
@@ -67,8 +67,23 @@ def pin_label(
         packed((0, 0, 0, 0.6)),
         3 * scale,
     )
-    draw.add_text(corner, packed(TEXT), text)
+    draw.add_text(corner, packed(PICTURE.text), text)
     draw.pop_clip_rect()
+
+
+def sketch_hint(count: int, key: str, viewport: Viewport, pixel_ratio: float) -> None:
+    """Say at the bottom of the picture what the hand does while strokes are sketched."""
+    text = f"Draw on the face to lay {count} pins, then drag one of them ({key} or Esc: single pins)"
+    size = imgui.calc_text_size(text)
+    x = (viewport.x + viewport.width / 2) / pixel_ratio - size.x / 2
+    y = (viewport.y + viewport.height) / pixel_ratio - 2.2 * size.y
+    draw, pad = imgui.get_background_draw_list(), 0.6 * size.y
+    corner, opposite = (
+        imgui.ImVec2(x - 1.5 * pad, y - 0.5 * pad),
+        imgui.ImVec2(x + size.x + 1.5 * pad, y + size.y + 0.5 * pad),
+    )
+    draw.add_rect_filled(corner, opposite, packed((0, 0, 0, 0.5)), size.y)
+    draw.add_text(imgui.ImVec2(x, y), packed(PICTURE.text), text)
 
 
 def hidden_pins(count: int, viewport: Viewport, pixel_ratio: float, scale: float) -> Command | None:

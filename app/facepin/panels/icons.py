@@ -4,8 +4,6 @@ from math import pi
 
 from imgui_bundle import imgui
 
-from facepin.panels.theme import TEXT, TEXT_DIM, packed
-
 
 def lock_button(name: str, closed: bool) -> bool:
     """Draw a padlock, dim where it is open; return whether it was clicked."""
@@ -57,5 +55,6 @@ def _button(name: str, lit: bool) -> tuple[bool, float, float, float, int, float
     height = imgui.get_frame_height()
     clicked = bool(imgui.invisible_button(name, imgui.ImVec2(icon_width(), height)))
     bright = lit or imgui.is_item_hovered()
-    colour = packed(TEXT if bright else TEXT_DIM, 1.0 if bright else 0.55)
+    kind = imgui.Col_.text if bright else imgui.Col_.text_disabled
+    colour = int(imgui.get_color_u32(kind, 1.0 if bright else 0.55))
     return clicked, corner.x + icon_width() / 2, corner.y + height / 2, 0.82 * size, colour, 0.1 * size

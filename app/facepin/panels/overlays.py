@@ -2,8 +2,9 @@
 
 from imgui_bundle import imgui
 
-from facepin.panels.requests import Command
+from facepin.panels.requests import Command, key_of
 from facepin.panels.view import Ghost, PaneView
+from facepin.session.navigation import Habit
 
 GHOSTS: dict[Ghost, str] = {
     "none": "No ghost",
@@ -12,17 +13,17 @@ GHOSTS: dict[Ghost, str] = {
 }
 
 
-def overlay_items(view: PaneView, *, has_reference: bool) -> None:
-    """Draw a menu item for each overlay of a pane, changed in place."""
-    if imgui.menu_item_simple(Command.HEAT.title, Command.HEAT.shortcuts[0], selected=view.heat):
+def overlay_items(view: PaneView, habit: Habit, *, has_reference: bool) -> None:
+    """Draw a menu item for each overlay of a pane, changed in place; `habit` has the keys."""
+    if imgui.menu_item_simple(Command.HEAT.title, key_of(Command.HEAT, habit), selected=view.heat):
         view.heat = not view.heat
     if imgui.menu_item_simple(
-        Command.WIREFRAME.title, Command.WIREFRAME.shortcuts[0], selected=view.wireframe
+        Command.WIREFRAME.title, key_of(Command.WIREFRAME, habit), selected=view.wireframe
     ):
         view.wireframe = not view.wireframe
     for ghost, title in GHOSTS.items():
         there = ghost != "reference" or has_reference
-        shortcut = Command.GHOST.shortcuts[0] if ghost == "none" else None
+        shortcut = key_of(Command.GHOST, habit) if ghost == "none" else None
         if imgui.menu_item_simple(title, shortcut, selected=view.ghost == ghost, enabled=there):
             view.ghost = ghost
 

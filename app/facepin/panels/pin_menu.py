@@ -4,15 +4,10 @@ from collections.abc import Collection
 
 from imgui_bundle import imgui
 
-from facepin.core.pose import Freedom, Pin
+from facepin.core.pose import Pin
 from facepin.panels.overlays import close_on_escape
-from facepin.panels.pins import SOFTEST, STIFFEST
+from facepin.panels.pins import FREEDOMS, SOFTEST, STIFFEST
 from facepin.panels.requests import Command, NamePin, RemovePins, Request, SetPins
-
-FREEDOMS: dict[Freedom, str] = {
-    "space": "Hold in space (x, y and z)",
-    "screen": "Hold on screen (depth free)",
-}
 
 
 def pin_menu(pin: Pin, pins: Collection[Pin]) -> Request | None:

@@ -11,7 +11,7 @@ from facepin.core.pose import Freedom, Pin
 from facepin.core.rig import Rig
 from facepin.panels.icons import eye_button, icon_width, lock_button
 from facepin.panels.requests import Command, NamePin, Request, SelectPins, SetPins
-from facepin.panels.theme import ACCENT, TEXT_DIM
+from facepin.panels.theme import Theme
 
 FAR = 1.0
 """A pin further from its goal than this, in per cent of the face height, stands out."""
@@ -22,6 +22,12 @@ SOFTEST, STIFFEST = 0.01, 100.0
 DRAG_SPEED = 0.25
 """Of a stiffness that is dragged: about 2 % per pixel."""
 _OTHER: dict[Freedom, Freedom] = {"space": "screen", "screen": "space"}
+
+
+FREEDOMS: dict[Freedom, str] = {
+    "space": "Hold in space (x, y and z)",
+    "screen": "Hold on screen (depth free)",
+}
 
 
 @dataclass
@@ -53,6 +59,7 @@ def pins_panel(
     positions: Points,
     selected: Collection[int],
     view: PinsView,
+    theme: Theme,
 ) -> Request | None:
     """Draw a row per pin; return what the user asks for in this frame, or None.
 
@@ -68,11 +75,13 @@ def pins_panel(
         Of the pins that are selected.
     view : PinsView
         Changed in place.
+    theme : Theme
+        Its colours.
     """
     view.hovered = None
     request = _head(pins, selected, view)
     if not pins:
-        imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*TEXT_DIM))
+        imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
         imgui.text_wrapped(
             "No pins yet: click the face to place one, or lay them on the landmarks of this rig."
         )
@@ -101,7 +110,7 @@ def pins_panel(
     while clipper.step():
         for row in range(clipper.display_start, clipper.display_end):
             imgui.push_id(pins[row].vertex)
-            request = _row(pins, row, percent(errors[row], rig.height), selected, view) or request
+            request = _row(pins, row, percent(errors[row], rig.height), selected, view, theme) or request
             imgui.pop_id()
     imgui.end_table()
     return request
@@ -135,7 +144,12 @@ def _titles() -> None:
 
 
 def _row(
-    pins: tuple[Pin, ...], row: int, error: float, selected: Collection[int], view: PinsView
+    pins: tuple[Pin, ...],
+    row: int,
+    error: float,
+    selected: Collection[int],
+    view: PinsView,
+    theme: Theme,
 ) -> Request | None:
     """Draw one pin; a change is for all that are selected if it is one of them."""
     pin = pins[row]
@@ -171,7 +185,7 @@ def _row(
     imgui.align_text_to_frame_padding()
     text = f"{error:.2f}" if error < 99.5 else "far"
     if error > FAR:
-        imgui.text_colored(imgui.ImVec4(*ACCENT), text)
+        imgui.text_colored(imgui.ImVec4(*theme.accent), text)
     else:
         imgui.text(text)
     return request

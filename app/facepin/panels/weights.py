@@ -1,6 +1,6 @@
 """The weights panel: the slider interface of the paper's Figure 3, live while the face is dragged."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -8,10 +8,11 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
+from facepin.core.control import ShapeControl
 from facepin.core.measures import active as active_shapes
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.panels.theme import ACCENT, FRAME, TEXT, TEXT_DIM, WARNING, Colour, packed, pane_colours
+from facepin.panels.theme import Colour, Theme, packed, pane_colours, tinted
 from facepin.session.edit import Edit
 from facepin.session.session import Pane
 
@@ -32,7 +33,15 @@ class WeightsView:
 
 
 def weights_panel(
-    rig: Rig, panes: Sequence[Pane], active: int, view: WeightsView, scale: float, *, in_gesture: bool
+    rig: Rig,
+    control: ShapeControl,
+    panes: Sequence[Pane],
+    active: int,
+    view: WeightsView,
+    scale: float,
+    theme: Theme,
+    *,
+    in_gesture: bool,
 ) -> Edit | None:
     """Draw one slider per shape; return the change of weights the user makes in this frame, or None.
 
@@ -40,6 +49,8 @@ def weights_panel(
     ----------
     rig : Rig
         Its shapes are listed.
+    control : ShapeControl
+        Their limits and ties.
     panes : sequence of Pane
         One bar each; with several, a shape's bars stand one under the other in the panes' colours.
     active : int
@@ -48,11 +59,15 @@ def weights_panel(
         Search and order, changed in place.
     scale : float
         Pixels per pixel of a 1x screen.
+    theme : Theme
+        Colours.
     in_gesture : bool
         Whether a drag or a slider is being moved.
     """
     pose = panes[active].pose
-    colours = [ACCENT] if len(panes) == 1 else pane_colours([pane.choice.kind.key for pane in panes])
+    colours = (
+        [theme.accent] if len(panes) == 1 else pane_colours(theme, [pane.choice.kind.key for pane in panes])
+    )
     poses = [pane.pose.weights for pane in panes]
     edit = _head(rig, pose, view)
     rows = _rows(rig, pose.weights, view, in_gesture)
@@ -64,11 +79,15 @@ def weights_panel(
         room = imgui.get_content_region_avail().x
         widest = max(imgui.calc_text_size(rig.shape_names[j]).x for j in _samples(rig))
         names = min(widest + 10 * scale, room * 0.5)
+        tied = {a: (rig.shape_names[b], control.limits_at(pose.weights)[a, 1]) for a, b in control.ties}
         clipper = imgui.ListClipper()
         clipper.begin(len(rows))
         while clipper.step():
             for row in range(clipper.display_start, clipper.display_end):
-                edit = _row(rig, pose, rows[row], names, scale, poses, colours) or edit
+                edit = (
+                    _row(rig, pose, control.limits, tied, rows[row], names, scale, poses, colours, theme)
+                    or edit
+                )
     imgui.end_child()
     return edit
 
@@ -114,29 +133,37 @@ def _rows(rig: Rig, weights: Floats, view: WeightsView, in_gesture: bool) -> tup
 def _row(
     rig: Rig,
     pose: Pose,
+    limits: Floats,
+    tied: Mapping[int, tuple[str, float]],
     j: int,
     names: float,
     scale: float,
     poses: Sequence[Floats],
     colours: Sequence[Colour],
+    theme: Theme,
 ) -> Edit | None:
-    """Draw name, slider and number of one shape, with a bar for each pane."""
+    """Draw name, slider and number of one shape, with a bar for each pane.
+
+    `tied` has, for a shape that another one limits, the name of that and the highest weight it leaves.
+    """
     weight = float(pose.weights[j])
-    low, high = (float(limit) for limit in rig.limits[j])
-    outside = not low - VISIBLE <= weight <= high + VISIBLE
+    low, high = (float(limit) for limit in limits[j])
+    other, most = tied.get(j, ("", high))
+    outside = not low - VISIBLE <= weight <= most + VISIBLE
     visible = abs(weight) > VISIBLE
     name = rig.shape_names[j]
     imgui.push_id(j)
     left = imgui.get_cursor_screen_pos()
     height = imgui.get_frame_height()
-    colour = TEXT if visible else TEXT_DIM
+    colour = theme.text if visible else theme.text_dim
     draw = imgui.get_window_draw_list()
     draw.push_clip_rect(left, imgui.ImVec2(left.x + names - 6 * scale, left.y + height), True)
     draw.add_text(imgui.ImVec2(left.x, left.y + imgui.get_style().frame_padding.y), packed(colour), name)
     draw.pop_clip_rect()
     imgui.invisible_button("name", imgui.ImVec2(names - 6 * scale, height))
     reset = imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0)
-    imgui.set_item_tooltip(f"{name}\nDouble click: back to 0\nCtrl+click the slider: type a number")
+    tie = f"\nGoes as far as {other} does, to {most:.2f} now" if other else ""
+    imgui.set_item_tooltip(f"{name}{tie}\nDouble click: back to 0\nCtrl+click the slider: type a number")
     imgui.same_line(names)
     # The range opens up for a weight outside its limits: nothing is clipped just by being shown.
     values = [float(weights[j]) for weights in poses]
@@ -144,16 +171,19 @@ def _row(
     width = imgui.get_content_region_avail().x
     at = imgui.get_cursor_screen_pos()
     if len(values) == 1 and outside:
-        colours = [WARNING]
-    _bars(draw, at, width, height, (low, high), values, colours, scale)
+        colours = [theme.warning]
+    tie_mark = most if other else None
+    _bars(draw, at, width, height, (low, high), tie_mark, values, colours, scale, theme)
     imgui.set_next_item_width(width)
     for index in (imgui.Col_.frame_bg, imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
         imgui.push_style_color(index, imgui.ImVec4(0, 0, 0, 0))
-    imgui.push_style_color(imgui.Col_.frame_bg_hovered, imgui.ImVec4(1, 1, 1, 0.06))
-    imgui.push_style_color(imgui.Col_.frame_bg_active, imgui.ImVec4(1, 1, 1, 0.09))
+    imgui.push_style_color(imgui.Col_.frame_bg_hovered, imgui.ImVec4(*tinted(theme.ink, 0.06)))
+    imgui.push_style_color(imgui.Col_.frame_bg_active, imgui.ImVec4(*tinted(theme.ink, 0.09)))
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f" if visible else "0.00")
     imgui.pop_style_color(6)
+    # A hand stops at the tie; what came from beyond it may stay there or come back.
+    value = min(value, max(most, weight)) if other else value
     if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0):
         reset = True
         imgui.internal.clear_active_id()  # else the slider goes on following the mouse, away from 0
@@ -174,11 +204,13 @@ def _bars(
     width: float,
     height: float,
     limits: tuple[float, float],
+    tie: float | None,
     values: Sequence[float],
     colours: Sequence[Colour],
     scale: float,
+    theme: Theme,
 ) -> None:
-    """Draw the slider's trough, and in it a bar from zero to each value."""
+    """Draw the slider's trough, shut beyond the `tie`, and in it a bar from zero to each value."""
     low, high = limits
 
     def x(value: float) -> float:
@@ -187,8 +219,15 @@ def _bars(
     inset = 2 * scale
     top, bottom = at.y + inset, at.y + height - inset
     draw.add_rect_filled(
-        imgui.ImVec2(at.x, top), imgui.ImVec2(at.x + width, bottom), packed(FRAME), 3 * scale
+        imgui.ImVec2(at.x, top), imgui.ImVec2(at.x + width, bottom), packed(theme.frame), 3 * scale
     )
+    if tie is not None:
+        end = x(tie)
+        right = at.x + width
+        draw.add_rect_filled(
+            imgui.ImVec2(end, top), imgui.ImVec2(right, bottom), packed(theme.panel, 0.7), 3 * scale
+        )
+        draw.add_line(imgui.ImVec2(end, top), imgui.ImVec2(end, bottom), packed(theme.text_dim), scale)
     zero = x(min(max(0.0, low), high))
     step = (bottom - top) / len(values)
     for number, (value, colour) in enumerate(zip(values, colours, strict=True)):
@@ -203,4 +242,4 @@ def _bars(
             imgui.ImVec2(end - scale, above), imgui.ImVec2(end + scale, below), packed(colour), scale
         )
     if low < -VISIBLE:
-        draw.add_line(imgui.ImVec2(zero, top), imgui.ImVec2(zero, bottom), packed(TEXT_DIM, 0.6), scale)
+        draw.add_line(imgui.ImVec2(zero, top), imgui.ImVec2(zero, bottom), packed(theme.text_dim, 0.6), scale)

@@ -52,6 +52,18 @@ def test_shift_beside_the_face_begins_a_box_that_adds() -> None:
     assert tool.selected == {20, 22, 60}
 
 
+def test_where_the_camera_has_no_use_for_it_a_drag_beside_the_face_is_a_box() -> None:
+    tool = DragTool(selected=frozenset({20}))
+    seen = sight(POSE, beside=True)
+    corner = VIEWPORT.x + 2, VIEWPORT.y + 2
+    tool.handle(PointerPressed(*corner), seen)
+    tool.handle(PointerReleased(VIEWPORT.x + 390, VIEWPORT.y + 390), seen)
+    assert tool.selected == {20, 22, 60}
+    tool.handle(PointerPressed(*corner), seen)
+    tool.handle(PointerReleased(*corner), seen)
+    assert not tool.selected
+
+
 def test_a_click_with_control_adds_a_pin_or_takes_it_out() -> None:
     tool = DragTool(selected=frozenset({60}))
     for selected in ({20, 60}, {60}):

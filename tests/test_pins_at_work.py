@@ -88,7 +88,7 @@ def test_dragging_one_of_several_selected_pins_drags_all_as_one_step(app: App) -
     assert app.desk.tool.selected == {first, third}
     assert app.session.work is before
     x, y = app.pixel_of(third)
-    app.drag((x, y), (x + 4, y + 22))
+    app.drag((x, y), (x + 4, y + 22), moves=6)
     after = pins_of(app)
     moves = {pin.vertex: np.subtract(after[pin.vertex].goal, pin.goal) for pin in before.panes[0].pose.pins}
     assert not moves[second].any()
@@ -116,7 +116,7 @@ def test_all_are_selected_by_a_key_and_let_go_by_a_click_beside_but_not_by_turni
     app.key("a", control=True)
     assert app.desk.tool.selected == set(vertices_of(app))
     camera = app.desk.camera
-    app.drag(BESIDE, (BESIDE[0] + 40, BESIDE[1]))
+    app.drag(BESIDE, (BESIDE[0] + 40, BESIDE[1]), moves=6)
     assert app.desk.camera != camera
     assert app.desk.tool.selected
     app.desk.look(camera)
@@ -155,7 +155,7 @@ def test_locked_pins_stay_whatever_is_removed(app: App) -> None:
     assert app.session.undo_label == "Lock 2 pins"
     weights = app.session.pose.weights
     x, y = app.pixel_of(first)
-    app.drag((x, y), (x, y + 20))
+    app.drag((x, y), (x, y + 20), moves=6)
     assert "locked" in app.desk.message
     assert app.session.pose.weights is weights
     app.desk.tool.selected = frozenset({second, third})
@@ -319,7 +319,7 @@ def test_a_stroke_is_sketched_and_dragged(app: App) -> None:
     xs = [app.pixel_of(vertex)[0] for vertex in new]
     assert xs == sorted(xs)
     at = app.pixel_of(new[2])
-    app.drag(at, (at[0], at[1] + 15))
+    app.drag(at, (at[0], at[1] + 15), moves=6)
     assert app.session.undo_label == "Drag 6 pins"
     assert app.session.pose.weights.any()
     app.key("z", control=True)
@@ -412,7 +412,7 @@ def test_several_panes_share_selection_strokes_and_nudges(app: App) -> None:
     app.key("b")
     viewport = app.frame.viewports[1]
     x, y = viewport.x + viewport.width / 2, viewport.y + 0.66 * viewport.height
-    app.drag((x - 30, y), (x + 30, y))
+    app.drag((x - 30, y), (x + 30, y), moves=6)
     assert app.session.active == 1
     pins = app.session.pose.pins
     new = {pin.vertex for pin in pins[len(old) :]}

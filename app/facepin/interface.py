@@ -21,7 +21,7 @@ from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import pins_panel, together
-from facepin.panels.requests import Command, Request, key_of
+from facepin.panels.requests import Command, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import loading_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours
@@ -209,10 +209,9 @@ def _hand(
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
             pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
-        key = key_of(Command.SKETCH_PINS, desk.view.habit)
-        sketch_hint(desk.view.pins.stroke, key, viewport, pixel_ratio)
+        sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
     hidden = sum(pin.hidden for pin in pins)
-    return hidden_pins(hidden, viewport, pixel_ratio, scale) if hidden else None
+    return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
@@ -227,6 +226,6 @@ def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
         desk.view.pin_menu = None
         return None
     vertices = together(pin, desk.tool.selected)
-    request = pin_menu(pin, [other for other in pose.pins if other.vertex in vertices])
+    request = pin_menu(pin, [other for other in pose.pins if other.vertex in vertices], desk.view.habit)
     imgui.end_popup()
     return request

@@ -123,7 +123,7 @@ class Router:
             return desk.tool.handle(event, self._sight(desk, stage, viewports, scale, self._pane))
         if self.navigator.holding:
             self._navigate(event, desk, viewports)
-            self._look_beside(event, desk, scale)
+            self._click_beside(event, desk, scale)
             return None
         if isinstance(event, PointerReleased) or imgui.get_io().want_capture_mouse:
             desk.tool.hovered = None
@@ -147,10 +147,10 @@ class Router:
             edit = desk.tool.handle(event, sight)
         if not desk.tool.holding:
             self._navigate(event, desk, viewports)
-            self._look_beside(event, desk, scale)
+            self._click_beside(event, desk, scale)
         return edit
 
-    def _look_beside(self, event: Event, desk: Desk, scale: float) -> None:
+    def _click_beside(self, event: Event, desk: Desk, scale: float) -> None:
         """Let go of the selection after a click beside the face: one that did not turn the camera."""
         match event:
             case PointerPressed(x, y, "left") if event.modifiers == NONE:
@@ -181,6 +181,7 @@ class Router:
             scale,
             desk.view.freedom,
             desk.view.pins.stroke if desk.view.pins.sketching else None,
+            ("left", NONE) not in PRESETS[desk.view.habit].motions,
         )
 
 

@@ -45,7 +45,7 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.SHOW_PINS:
             hidden = frozenset(pin.vertex for pin in pins if pin.hidden)
             _set(desk, session, SetPins(hidden, hidden=False))
-            desk.tool.selected = hidden
+            desk.tool.selected = hidden or selected
         case _:
             return False
     return True

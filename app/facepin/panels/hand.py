@@ -7,11 +7,23 @@ from imgui_bundle import imgui
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.pose import Pin
-from facepin.panels.requests import Command
-from facepin.panels.theme import PICTURE, packed
+from facepin.panels.key_caps import caps_width, draw_caps
+from facepin.panels.requests import Command, key_of
+from facepin.panels.theme import PICTURE, VEIL, Colour, packed, tinted
 from facepin.session.box import Box
 from facepin.session.gesture import Gesture
+from facepin.session.navigation import Habit
 from facepin.session.stroke import Stroke
+
+_OVER_PICTURE: dict[int, Colour] = {
+    imgui.Col_.window_bg: PICTURE.popup,
+    imgui.Col_.text: PICTURE.text,
+    imgui.Col_.text_disabled: PICTURE.text_dim,
+    imgui.Col_.button: PICTURE.frame_hovered,
+    imgui.Col_.button_hovered: PICTURE.frame_active,
+    imgui.Col_.button_active: PICTURE.accent_dim,
+}
+"""Of a window over the picture, whatever the theme of the panels."""
 
 
 def draw_gesture(gesture: Gesture | None, pixel_ratio: float, scale: float) -> None:
@@ -71,28 +83,32 @@ def pin_label(
     draw.pop_clip_rect()
 
 
-def sketch_hint(count: int, key: str, viewport: Viewport, pixel_ratio: float) -> None:
-    """Say at the bottom of the picture what the hand does while strokes are sketched."""
-    text = f"Draw on the face to lay {count} pins, then drag one of them ({key} or Esc: single pins)"
-    size = imgui.calc_text_size(text)
-    x = (viewport.x + viewport.width / 2) / pixel_ratio - size.x / 2
-    y = (viewport.y + viewport.height) / pixel_ratio - 2.2 * size.y
-    draw, pad = imgui.get_background_draw_list(), 0.6 * size.y
-    corner, opposite = (
-        imgui.ImVec2(x - 1.5 * pad, y - 0.5 * pad),
-        imgui.ImVec2(x + size.x + 1.5 * pad, y + size.y + 0.5 * pad),
-    )
-    draw.add_rect_filled(corner, opposite, packed((0, 0, 0, 0.5)), size.y)
-    draw.add_text(imgui.ImVec2(x, y), packed(PICTURE.text), text)
+def sketch_hint(count: int, habit: Habit, viewport: Viewport, pixel_ratio: float, scale: float) -> None:
+    """Say at the bottom of the picture how a stroke is laid, and how to get back to single pins."""
+    key = key_of(Command.SKETCH_PINS, habit)
+    text = f"Draw on the face: {count} pins are laid along the line, drag one to move them all"
+    line = imgui.get_text_line_height()
+    wide = caps_width(key, scale) + 0.7 * line + imgui.calc_text_size(text).x
+    left = (viewport.x + viewport.width / 2) / pixel_ratio - wide / 2
+    middle = (viewport.y + viewport.height) / pixel_ratio - 1.9 * line
+    draw = imgui.get_background_draw_list()
+    corner = imgui.ImVec2(left - 0.9 * line, middle - 1.1 * line)
+    opposite = imgui.ImVec2(left + wide + 0.9 * line, middle + 1.1 * line)
+    draw.add_rect_filled(corner, opposite, packed(tinted(PICTURE.popup, VEIL)), 1.1 * line)
+    draw_caps(draw, left, middle, key, PICTURE, scale)
+    x = left + caps_width(key, scale) + 0.7 * line
+    draw.add_text(imgui.ImVec2(x, middle - line / 2), packed(PICTURE.text), text)
 
 
-def hidden_pins(count: int, viewport: Viewport, pixel_ratio: float, scale: float) -> Command | None:
+def hidden_pins(
+    count: int, habit: Habit, viewport: Viewport, pixel_ratio: float, scale: float
+) -> Command | None:
     """Say in a corner of the picture that there are pins which are not seen, and offer them back."""
     corner = imgui.ImVec2(
         viewport.x / pixel_ratio + 8 * scale, (viewport.y + viewport.height) / pixel_ratio - 8 * scale
     )
     imgui.set_next_window_pos(corner, imgui.Cond_.always, imgui.ImVec2(0, 1))
-    imgui.set_next_window_bg_alpha(0.72)
+    imgui.set_next_window_bg_alpha(VEIL)
     flags = (
         imgui.WindowFlags_.no_decoration
         | imgui.WindowFlags_.always_auto_resize
@@ -102,13 +118,16 @@ def hidden_pins(count: int, viewport: Viewport, pixel_ratio: float, scale: float
         | imgui.WindowFlags_.no_focus_on_appearing
         | imgui.WindowFlags_.no_bring_to_front_on_focus
     )
+    for index, colour in _OVER_PICTURE.items():
+        imgui.push_style_color(index, imgui.ImVec4(*colour))
     imgui.begin("##hidden pins", None, flags)
     imgui.align_text_to_frame_padding()
+    key = key_of(Command.SHOW_PINS, habit)
     imgui.text_disabled(f"{count} pin{'' if count == 1 else 's'} hidden")
     imgui.same_line()
-    asked = imgui.button("Show")
-    imgui.set_item_tooltip(f"{Command.SHOW_PINS.title} ({Command.SHOW_PINS.shortcuts[0]})")
+    asked = imgui.button(f"Show ({key})" if key else "Show")
     imgui.end()
+    imgui.pop_style_color(len(_OVER_PICTURE))
     return Command.SHOW_PINS if asked else None
 
 

@@ -55,6 +55,6 @@ def _button(name: str, lit: bool) -> tuple[bool, float, float, float, int, float
     height = imgui.get_frame_height()
     clicked = bool(imgui.invisible_button(name, imgui.ImVec2(icon_width(), height)))
     bright = lit or imgui.is_item_hovered()
-    kind = imgui.Col_.text if bright else imgui.Col_.text_disabled
-    colour = int(imgui.get_color_u32(kind, 1.0 if bright else 0.55))
+    index, opacity = (imgui.Col_.text, 1.0) if bright else (imgui.Col_.text_disabled, 0.6)
+    colour = int(imgui.get_color_u32(index, opacity))
     return clicked, corner.x + icon_width() / 2, corner.y + height / 2, 0.82 * size, colour, 0.1 * size

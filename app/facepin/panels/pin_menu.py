@@ -7,10 +7,11 @@ from imgui_bundle import imgui
 from facepin.core.pose import Pin
 from facepin.panels.overlays import close_on_escape
 from facepin.panels.pins import FREEDOMS, SOFTEST, STIFFEST
-from facepin.panels.requests import Command, NamePin, RemovePins, Request, SetPins
+from facepin.panels.requests import Command, NamePin, RemovePins, Request, SetPins, key_of
+from facepin.session.navigation import Habit
 
 
-def pin_menu(pin: Pin, pins: Collection[Pin]) -> Request | None:
+def pin_menu(pin: Pin, pins: Collection[Pin], habit: Habit) -> Request | None:
     """Draw the inside of the menu of a pin; return what the user changes, or None.
 
     Parameters
@@ -19,6 +20,8 @@ def pin_menu(pin: Pin, pins: Collection[Pin]) -> Request | None:
         The one that was clicked.
     pins : Pins
         Those that change with it, it among them.
+    habit : str
+        Whose keys are named.
     """
     request: Request | None = None
     close_on_escape()
@@ -46,12 +49,12 @@ def pin_menu(pin: Pin, pins: Collection[Pin]) -> Request | None:
         request = SetPins(vertices, stiffness=stiffness, final=finished)
     imgui.separator()
     locked = all(other.locked for other in pins)
-    if imgui.menu_item_simple("Unlock" if locked else "Lock", Command.LOCK_PINS.shortcuts[0]):
+    if imgui.menu_item_simple("Unlock" if locked else "Lock", key_of(Command.LOCK_PINS, habit)):
         request = SetPins(vertices, locked=not locked)
     imgui.set_item_tooltip("A locked pin still holds, but can't be dragged or removed")
-    if imgui.menu_item_simple("Hide", Command.HIDE_PINS.shortcuts[0]):
+    if imgui.menu_item_simple("Hide", key_of(Command.HIDE_PINS, habit)):
         request = SetPins(vertices, hidden=True)
-    imgui.set_item_tooltip(f"A hidden pin still holds; {Command.SHOW_PINS.shortcuts[0]} brings all back")
-    if imgui.menu_item_simple("Remove", Command.DELETE_PINS.shortcuts[0], enabled=not locked):
+    imgui.set_item_tooltip(f"A hidden pin still holds; {key_of(Command.SHOW_PINS, habit)} brings all back")
+    if imgui.menu_item_simple("Remove", key_of(Command.DELETE_PINS, habit), enabled=not locked):
         request = RemovePins(vertices)
     return request

@@ -119,8 +119,7 @@ def pins_panel(
 def _head(pins: tuple[Pin, ...], selected: Collection[int], view: PinsView) -> Request | None:
     """Draw how a stroke is laid, and how many pins there are."""
     _, view.sketching = imgui.checkbox("Sketch strokes of", view.sketching)
-    key = Command.SKETCH_PINS.shortcuts[0]
-    imgui.set_item_tooltip(f"Drag on the skin to lay pins along a line, then drag them together ({key})")
+    imgui.set_item_tooltip(Command.SKETCH_PINS.help)
     imgui.same_line()
     imgui.set_next_item_width(-imgui.calc_text_size("pins").x - imgui.get_style().item_inner_spacing.x)
     _, view.stroke = imgui.slider_int("pins", view.stroke, *STROKES, flags=imgui.SliderFlags_.always_clamp)

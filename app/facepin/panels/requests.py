@@ -68,7 +68,7 @@ class Command(Enum):
     )
     SELECT_PINS = "Select all pins", ("Ctrl+A",), "Pins", "Selected pins move together."
     DELETE_PINS = "Remove selected pins", ("Delete", "Backspace"), "Pins", "The pose stays as it is."
-    CLEAR_PINS = "Remove all pins", (), "Pins", "Frees every point; the pose stays as it is."
+    CLEAR_PINS = "Remove all pins", (), "Pins", "All but locked ones; the pose stays as it is."
     LOCK_PINS = (
         "Lock or unlock selected pins",
         ("L",),

@@ -18,6 +18,8 @@ class Box:
     """What was selected."""
     adds: bool
     """Whether that stays so."""
+    clicked: frozenset[int]
+    """What is selected after a mere click on nothing."""
     selected: frozenset[int]
     corner: Pixel
     """Where the mouse is."""
@@ -39,8 +41,9 @@ class Box:
     def release(self, pixel: Pixel) -> Edit | None:
         """Select what is inside; a mere click adds the pin under it, or takes it out."""
         self.move(pixel)
-        if not self.drawn and (vertex := pin_at(self.sight, self.pressed)) is not None:
-            self.selected = self.before ^ {vertex}
+        if not self.drawn:
+            vertex = pin_at(self.sight, self.pressed)
+            self.selected = self.clicked if vertex is None else self.before ^ {vertex}
         return None
 
     def _inside(self) -> frozenset[int]:
@@ -52,6 +55,20 @@ class Box:
         return frozenset(vertices[(left <= x) & (x <= right) & (top <= y) & (y <= bottom)].tolist())
 
 
-def span(pressed: Pixel, sight: Sight, selected: frozenset[int], *, adds: bool) -> Box:
-    """Begin a rubber band."""
-    return Box(pressed, sight, selected, adds, selected, pressed)
+def span(pressed: Pixel, sight: Sight, selected: frozenset[int], *, adds: bool, keeps: bool = True) -> Box:
+    """Begin a rubber band.
+
+    Parameters
+    ----------
+    pressed : (x, y)
+        Its first corner.
+    sight : Sight
+        As it was seen at the press.
+    selected : set of int
+        Vertices of the pins selected so far.
+    adds : bool
+        Add what is inside to them, instead of selecting it alone.
+    keeps : bool
+        Keep them after a mere click on nothing.
+    """
+    return Box(pressed, sight, selected, adds, selected if keeps else frozenset(), selected, pressed)

@@ -108,8 +108,8 @@ class DragTool:
                 self.gesture = sketch(pixel, sight.stroke, sight, self.selected if adds else frozenset())
                 return None
         if vertex is None:
-            if adds:
-                self.gesture = span(pixel, sight, self.selected, adds=True)
+            if adds or sight.beside:
+                self.gesture = span(pixel, sight, self.selected, adds=adds, keeps=adds)
             return None
         hold = take(vertex, pixel, sight, self.selected, adds=adds)
         self.gesture = hold

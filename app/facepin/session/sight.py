@@ -40,6 +40,8 @@ class Sight:
     """What new pins constrain."""
     stroke: int | None = None
     """How many pins are laid along a stroke; None where a press on the skin places a single pin."""
+    beside: bool = False
+    """Whether a drag beside the face selects with a rubber band; else it is left to the camera."""
 
     @property
     def shown_pins(self) -> tuple[Pin, ...]:

@@ -86,3 +86,18 @@ def test_the_icon_is_there_in_every_size(size: int) -> None:
     assert pixels[0, 0, 3] < 10  # round corners
     red, _, blue, _ = pixels.reshape(-1, 4).T
     assert 0.01 < np.mean(red - blue > 120) < 0.2  # the orange pin
+
+
+def test_the_number_pad_steps_round_the_face() -> None:
+    with running() as app:
+        front = app.desk.camera
+        app.key("numpad 6")
+        app.key("numpad 8")
+        assert app.desk.camera.yaw > front.yaw  # from the right of the picture: the character's left side
+        assert app.desk.camera.pitch > front.pitch
+        app.key("numpad 4")
+        app.key("numpad 2")
+        assert app.desk.camera.yaw == pytest.approx(front.yaw)
+        assert app.desk.camera.pitch == pytest.approx(front.pitch)
+        app.key("1", control=True)
+        assert abs(app.desk.camera.yaw) == pytest.approx(np.pi)

@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 
 from facepin.core.pose import Pin
 from facepin.panels import layout
+from facepin.panels.availability import why_not
 from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import (
     AddPane,
@@ -41,7 +42,6 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     """
     undo = session.undo_label if session else None
     redo = session.redo_label if session else None
-    pins = len(session.pose.pins) if session else 0
     asked: Request | None = None
     layout.push_no_ground()
     shown = imgui.begin_main_menu_bar()
@@ -66,11 +66,11 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         imgui.end_menu()
     if imgui.begin_menu("Edit"):
         close_on_escape()
-        asked = _item(view, Command.UNDO, undo is not None, undo) or asked
-        asked = _item(view, Command.REDO, redo is not None, redo) or asked
+        asked = _item(view, Command.UNDO, not why_not(Command.UNDO, session), undo) or asked
+        asked = _item(view, Command.REDO, not why_not(Command.REDO, session), redo) or asked
         imgui.separator()
-        asked = _item(view, Command.DELETE_PINS, bool(pins)) or asked
-        asked = _item(view, Command.CLEAR_PINS, bool(pins)) or asked
+        for command in (Command.DELETE_PINS, Command.CLEAR_PINS):
+            asked = _item(view, command, not why_not(command, session)) or asked
         asked = _item(view, Command.RESET_POSE) or asked
         imgui.separator()
         asked = _choices(view, "freedom") or asked
@@ -131,7 +131,8 @@ def _compare(view: View, session: Session) -> Request | None:
             if imgui.menu_item_simple(f"of {shapes} shape{'s' if shapes > 1 else ''}"):
                 asked = RandomReference(shapes)
         imgui.end_menu()
-    asked = _item(view, Command.FORGET_REFERENCE, session.work.reference is not None) or asked
+    forget = Command.FORGET_REFERENCE
+    asked = _item(view, forget, not why_not(forget, session)) or asked
     imgui.separator()
     return _item(view, Command.CHART) or asked
 

@@ -118,6 +118,7 @@ def test_everything_is_in_it_and_can_be_carried_out(tmp_path: Path) -> None:
         ("png", "Save picture"),
         ("unwanted motion", "Heat map of the move"),
         ("maya", "Mouse and keys: Maya"),
+        ("mouse keys", "Mouse and keys: Facepin"),  # of those that fit alike, the first of the table
     ],
 )
 def test_what_is_meant_comes_first(query: str, first: str) -> None:

@@ -66,8 +66,8 @@ def test_arrows_choose_and_escape_leaves() -> None:
 def test_letters_typed_into_it_are_no_shortcuts_and_a_click_beside_it_closes_it() -> None:
     with running() as app:
         called(app)
-        app.step(KeyPressed("h"), frames=2)
-        assert not app.desk.view.panes[0].heat
+        app.step(KeyPressed("w"), frames=2)
+        assert not app.desk.view.panes[0].wireframe
         app.press(100, 600)
         app.release(100, 600)
         assert app.desk.view.palette is None
@@ -86,11 +86,13 @@ def test_what_can_not_be_done_says_why_and_is_not_done() -> None:
 
 def test_a_click_chooses() -> None:
     with running() as app:
-        called(app, "heat")
+        called(app, "chart")
         app.press(640, 109)
         app.release(640, 109)
         app.step(frames=2)
-        assert app.desk.view.panes[0].heat
+        assert app.desk.view.chart
+        (entry,) = (e for e in entries(app.desk.view, app.session, []) if e.request is Command.CHART)
+        assert entry.on
 
 
 def test_everything_is_in_it_and_can_be_carried_out(tmp_path: Path) -> None:

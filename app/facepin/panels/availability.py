@@ -1,6 +1,7 @@
-"""Whether a command can do anything now, and if not, why."""
+"""Whether a command can do anything now, and if not, why; and whether it did already."""
 
 from facepin.panels.requests import Command
+from facepin.panels.view import View
 from facepin.session.session import Session
 
 WITHOUT_FACE = frozenset(
@@ -33,3 +34,15 @@ def why_not(command: Command, session: Session | None) -> str:
         case Command.FORGET_REFERENCE if session.work.reference is None:
             return "no reference is set"
     return ""
+
+
+def is_on(command: Command, view: View, active: int) -> bool:
+    """Say whether what a command switches on and off is on, in the active pane where each has its own."""
+    match command:
+        case Command.SYMMETRY:
+            return view.symmetric
+        case Command.WIREFRAME:
+            return view.panes[active].wireframe
+        case Command.CHART:
+            return view.chart
+    return False

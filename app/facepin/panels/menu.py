@@ -10,6 +10,7 @@ from facepin.panels import layout
 from facepin.panels.availability import why_not
 from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import (
+    VIEW_COMMANDS,
     AddPane,
     Choose,
     ClosePane,
@@ -85,7 +86,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         imgui.end_menu()
     if imgui.begin_menu("View"):
         close_on_escape()
-        for command in (Command.FRAME, Command.FRONT, Command.LEFT, Command.RIGHT, Command.THREE_QUARTER):
+        for command in (Command.FRAME, *VIEW_COMMANDS):
             asked = _item(view, command) or asked
         imgui.separator()
         if session is not None:

@@ -8,7 +8,7 @@ from imgui_bundle import imgui
 from facepin.core.pose import Pin
 from facepin.panels import layout
 from facepin.panels.availability import why_not
-from facepin.panels.overlays import close_on_escape, overlay_items
+from facepin.panels.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.requests import (
     VIEW_COMMANDS,
     AddPane,
@@ -56,7 +56,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
             for path in recent:
                 if imgui.menu_item_simple(f"{path.name}##{path}"):
                     asked = OpenPath(path)
-                imgui.set_item_tooltip(str(path))
+                explain_item(str(path))
             imgui.end_menu()
         asked = _item(view, Command.OPEN_BUILTIN) or asked
         imgui.separator()
@@ -176,7 +176,7 @@ def _item(
         title, key_of(command, view.habit) or None, selected=selected, enabled=enabled
     )
     if command.help:
-        imgui.set_item_tooltip(command.help)
+        explain_item(command.help)
     return command if chosen else None
 
 
@@ -187,6 +187,6 @@ def _choices(view: View, name: str, enabled: bool = True) -> Choose | None:
         for value, title in choice.values.items():
             if imgui.menu_item_simple(title, selected=getattr(view, name) == value):
                 chosen = Choose(name, value)
-            imgui.set_item_tooltip(choice.help)
+            explain_item(choice.help)
         imgui.end_menu()
     return chosen

@@ -18,7 +18,7 @@ from facepin.session.navigation import Habit
 
 BEAT = 1.1
 """Seconds that one turn of a small picture takes."""
-BEATS = 4
+BEATS = 5
 """Turns before it comes to rest: nobody is nagged, and a resting window costs nothing."""
 PATIENCE = 4
 """Changes of the pose after which a step that was not followed is over."""
@@ -144,7 +144,7 @@ def draw_guide(
     top = (viewport.y + viewport.height) / pixel_ratio - tall - 0.8 * line
     draw = imgui.get_background_draw_list()
     corner, opposite = imgui.ImVec2(left, top), imgui.ImVec2(left + wide, top + tall)
-    draw.add_rect_filled(corner, opposite, packed((0.04, 0.042, 0.05, 0.78)), tall / 2)
+    draw.add_rect_filled(corner, opposite, packed(PICTURE.bar, 0.8), tall / 2)
     draw.add_rect(corner, opposite, packed(tinted(PICTURE.ink, 0.12)), tall / 2, thickness=scale)
     middle = top + tall / 2
     if key:

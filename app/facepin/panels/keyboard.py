@@ -19,10 +19,15 @@ HAND: tuple[tuple[str, str], ...] = (
     ("Click on the face", "Place a pin"),
     ("Drag", "Move a pin: the face follows"),
     ("Shift+Click a pin", "Select one more"),
+    ("Ctrl+Drag", "Select pins in a box"),
     ("Right click a pin", "What it holds, how stiff it is"),
+    ("Arrows", "Nudge selected pins by a pixel"),
+    ("Shift+Arrows", "Nudge them by ten"),
+    ("Page up", "Nudge them away"),
+    ("Page down", "Nudge them nearer"),
     ("Esc", "Give up the drag in hand"),
 )
-"""What the mouse does on the face."""
+"""What the hand does on the face."""
 SLIDERS: tuple[tuple[str, str], ...] = (
     ("Drag", "Set the weight"),
     ("Ctrl+Click", "Type a number"),
@@ -47,10 +52,12 @@ class Section:
 
 def sections(habit: Habit) -> list[Section]:
     """Return all keys and gestures that someone with a habit has."""
+    boxes = ("left", Modifiers()) not in PRESETS[habit].motions
+    hand = HAND + ((("Drag beside the face", "Select pins in a box"),) if boxes else ())
     found = [
-        Section("Mouse on the face", tuple(((how,), what) for how, what in HAND)),
+        Section("On the face", tuple(((how,), what) for how, what in hand)),
         Section(f"Camera, as in {PRESETS[habit].title}", _camera(habit)),
-        Section("Mouse on a weight", tuple(((how,), what) for how, what in SLIDERS)),
+        Section("On a weight", tuple(((how,), what) for how, what in SLIDERS)),
     ]
     for topic in get_args(Topic):
         lines = tuple(

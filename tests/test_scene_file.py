@@ -33,7 +33,10 @@ def worked() -> Session:
     """A session with something of everything."""
     session = Session(RIG, [choose("tikhonov"), choose("hybrid", keep_limits=True)])
     session.apply(Edit("Set", True, weights=np.array([0.25, 1 / 3, 0, -1.5])))
-    session.apply(Edit("Drag", True, (at(30), at(41, freedom="screen", stiffness=7.5)), solve=True))
+    turned = Camera().orbited(0.3, 0.2).axes[:2]
+    axes = tuple(tuple(axis.tolist()) for axis in turned)
+    odd = at(41, freedom="screen", stiffness=7.5, axes=axes, name="lip corner", locked=True, hidden=True)
+    session.apply(Edit("Drag", True, (at(30, axes=axes), odd), solve=True))
     limits = session.control.limits * [[-0.5, 2.0]] - [[0.125, 0]]
     locked, muted = np.arange(4) == 3, np.arange(4) == 1
     session.set_control("Lock", replace(session.control, limits=limits, locked=locked, muted=muted))

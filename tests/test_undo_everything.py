@@ -29,6 +29,8 @@ ASK_FOR_A_FILE = {
     Command.OPEN_FILE,
     Command.OPEN_FOLDER,
     Command.LOAD_POSE,
+    Command.LOAD_LANDMARKS,
+    Command.SAVE_LANDMARKS,
     Command.SAVE,
     Command.SAVE_AS,
     Command.SAVE_POSE,
@@ -76,6 +78,11 @@ def random_pins(random: np.random.Generator) -> tuple[Pin, ...]:
     )
 
 
+def some_pins(random: np.random.Generator, session: Session) -> frozenset[int]:
+    """Vertices of some of the pins."""
+    return frozenset(pin.vertex for pin in session.pose.pins if random.integers(2))
+
+
 def random_choice(random: np.random.Generator) -> object:
     return choose(str(random.choice(list(SOLVERS))), keep_limits=bool(random.integers(2)))
 
@@ -93,13 +100,19 @@ MAKERS: dict[type, Maker] = {
         int(random.integers(len(session.panes)))
     ),
     requests.RandomReference: lambda random, _: requests.RandomReference(int(random.integers(1, 4))),
-    requests.SetPin: lambda random, session: requests.SetPin(
-        int(random.choice([pin.vertex for pin in session.pose.pins] or [0])),
+    requests.SetPins: lambda random, session: requests.SetPins(
+        some_pins(random, session),
         freedom=[None, "space", "screen"][random.integers(3)],
-        stiffness=float(random.uniform(0.1, 10)),
-        remove=bool(random.integers(4) == 0),
+        stiffness=[None, float(random.uniform(0.1, 10))][random.integers(2)],
+        locked=[None, True, False][random.integers(3)],
+        hidden=[None, True, False][random.integers(3)],
         final=bool(random.integers(2)),
     ),
+    requests.NamePin: lambda random, session: requests.NamePin(
+        max(some_pins(random, session), default=0), str(random.choice(["", "chin", "lip"]))
+    ),
+    requests.RemovePins: lambda random, session: requests.RemovePins(some_pins(random, session)),
+    requests.SelectPins: lambda random, session: requests.SelectPins(some_pins(random, session)),
     requests.PairShapes: lambda random, _: requests.PairShapes(
         int(random.integers(RIG.shape_count)), [None, *range(RIG.shape_count)][random.integers(5)]
     ),

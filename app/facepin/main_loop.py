@@ -34,7 +34,7 @@ from facepin.window import Window
 IDLE_WAIT = 0.5
 """Seconds to sleep at most when nothing happens; a text cursor blinks in this rhythm."""
 BUSY_WAIT = 1 / 30
-"""The same while a file is being opened or a dialog is up."""
+"""The same while a file is being opened, a dialog is up, or pins are nudged by keys."""
 SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
 HOVER_DELAY = 0.2
@@ -159,7 +159,8 @@ def _loop(
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        busy = desk.loading is not None or desk.dialog is not None or view.guide.moving(began)
+        waiting = desk.loading is not None or desk.dialog is not None
+        busy = waiting or desk.tool.nudging or view.guide.moving(began)
         settling = SETTLE if events or busy or desk.keeper.complaint != unkept else settling - 1
         unkept = desk.keeper.complaint
         if 0 in window.size:

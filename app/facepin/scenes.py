@@ -13,7 +13,7 @@ from facepin.core.control import Flags, ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
-from facepin.core.pose import Pose
+from facepin.core.pose import FRONT_AXES, Pin, Pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.files.checked_json import JsonObject
@@ -106,7 +106,7 @@ def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
             fingerprint=rig.fingerprint,
         ),
         tuple(map(in_scene, work.panes, snapshot.cameras, snapshot.shown)),
-        tuple(pins_as_json(work.panes[0].pose.pins)),
+        _pins_of(work.panes[0].pose.pins),
         _control_of(work.control, rig),
         None if work.mirror is None else _twins_of(work.mirror, rig),
         None if work.reference is None else named(work.reference),
@@ -224,6 +224,15 @@ class _Placing:
         if self._wild:
             lines.append(f"weights beyond {LARGEST_WEIGHT:.0e} are cut down: {listed(list(self._wild))}")
         return lines
+
+
+def _pins_of(pins: Sequence[Pin]) -> tuple[Mapping[str, Any], ...]:
+    """Return pins as in a pins file, and the axes of all: a pin in space may be held on screen again."""
+    entries = pins_as_json(tuple(pins))
+    for entry, pin in zip(entries, pins, strict=True):
+        if pin.axes != FRONT_AXES:
+            entry["axes"] = [list(axis) for axis in pin.axes]
+    return tuple(entries)
 
 
 def _control_of(control: ShapeControl, rig: Rig) -> SceneControl:

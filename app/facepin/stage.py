@@ -16,7 +16,7 @@ from facepin.core.pose import Pose
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
-from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
+from facepin.gpu.markers import MarkerLayer, Markers, MarkerState, marker_size
 from facepin.gpu.materials import material
 from facepin.gpu.pane import Overlays, draw_pane
 from facepin.gpu.scene import PaneMesh, Part, Scene
@@ -208,9 +208,10 @@ class Stage:
 
 
 def _markers(pose: Pose, positions: Points, tool: DragTool) -> Markers:
-    states = []
-    for pin in pose.pins:
-        if pin.vertex == tool.held:
+    states: list[MarkerState] = []
+    pins, held = [pin for pin in pose.pins if not pin.hidden], tool.held
+    for pin in pins:
+        if pin.vertex in held:
             states.append(MarkerState.HELD)
         elif pin.vertex in tool.selected:
             states.append(MarkerState.SELECTED)
@@ -219,7 +220,9 @@ def _markers(pose: Pose, positions: Points, tool: DragTool) -> Markers:
         else:
             states.append(MarkerState.NORMAL)
     return Markers(
-        positions[[pin.vertex for pin in pose.pins]],
-        np.array([pin.goal for pin in pose.pins], np.float32).reshape(-1, 3),
+        positions[[pin.vertex for pin in pins]],
+        np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
         np.array(states, np.uint8),
+        np.array([marker_size(pin.stiffness) for pin in pins]),
+        np.array([pin.locked for pin in pins], bool),
     )

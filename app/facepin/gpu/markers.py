@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass
 from enum import IntEnum
+from math import log10
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from facepin.core.arrays import Points
+from facepin.core.arrays import Floats, Points
 from facepin.core.camera import Camera, Viewport
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
@@ -41,7 +42,14 @@ STYLES: dict[MarkerState, MarkerStyle] = {
 """White and the accent differ in lightness as well as in hue: told apart without colour vision."""
 
 _VERTICES = 18
-_LAYOUT = np.dtype([("position", "3f4"), ("goal", "3f4"), ("colour", "4f4"), ("radius", "f4")])
+_LAYOUT = np.dtype(
+    [("position", "3f4"), ("goal", "3f4"), ("colour", "4f4"), ("radius", "f4"), ("square", "f4")]
+)
+
+
+def marker_size(stiffness: float) -> float:
+    """Return how many times the usual size shows how hard a pin pulls: ten times as hard, a fifth larger."""
+    return min(max(1 + 0.2 * log10(stiffness), 0.6), 1.6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +62,10 @@ class Markers:
     """(p, 3) float32, where they should be."""
     states: NDArray[np.uint8]
     """(p,) values of `MarkerState`."""
+    sizes: Floats | None = None
+    """(p,) times the usual radius; None for all as usual."""
+    locked: NDArray[np.bool_] | None = None
+    """(p,) which are drawn as squares; None for none."""
 
 
 class MarkerLayer:
@@ -69,7 +81,8 @@ class MarkerLayer:
         """Make room for `count` markers."""
         self._capacity = count
         self._instances = self.ctx.buffer(reserve=count * _LAYOUT.itemsize, dynamic=True)
-        layout = (self._instances, "3f 3f 4f 1f /i", "position", "goal", "colour", "radius")
+        names = ("position", "goal", "colour", "radius", "square")
+        layout = (self._instances, "3f 3f 4f 1f 1f /i", *names)
         self._quads = [self.ctx.vertex_array(program, [layout]) for program in self._programs]
 
     def draw(
@@ -134,4 +147,8 @@ def _instances(markers: Markers) -> NDArray[np.void]:
     packed["goal"] = markers.goals[order]
     packed["colour"] = [(*style.colour, style.halo) for style in styles]
     packed["radius"] = [style.radius for style in styles]
+    if markers.sizes is not None:
+        packed["radius"] *= markers.sizes[order]
+    if markers.locked is not None:
+        packed["square"] = markers.locked[order]
     return packed

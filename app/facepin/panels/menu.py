@@ -1,14 +1,16 @@
-"""The menu bar and the menu of a pin."""
+"""The menu bar."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
 from imgui_bundle import imgui
 
-from facepin.core.pose import Pin
 from facepin.panels import layout
-from facepin.panels.overlays import close_on_escape, overlay_items
+from facepin.panels.availability import why_not
+from facepin.panels.overlays import close_on_escape, explain_item, overlay_items
+from facepin.panels.pins import STROKES
 from facepin.panels.requests import (
+    VIEW_COMMANDS,
     AddPane,
     Choose,
     ClosePane,
@@ -17,10 +19,9 @@ from facepin.panels.requests import (
     OpenPath,
     RandomReference,
     Request,
-    SetPin,
     key_of,
 )
-from facepin.panels.view import CHOICES, FREEDOMS, View
+from facepin.panels.view import CHOICES, View
 from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
@@ -45,7 +46,6 @@ def menu_bar(
     """
     undo = session.undo_label if session else None
     redo = session.redo_label if session else None
-    pins = len(session.pose.pins) if session else 0
     asked: Request | None = None
     layout.push_no_ground()
     shown = imgui.begin_main_menu_bar()
@@ -59,7 +59,7 @@ def menu_bar(
             for path in recent:
                 if imgui.menu_item_simple(f"{path.name}##{path}"):
                     asked = OpenPath(path)
-                imgui.set_item_tooltip(str(path))
+                explain_item(str(path))
             imgui.end_menu()
         asked = _item(view, Command.OPEN_BUILTIN) or asked
         asked = _item(view, Command.UNSAVED_WORK, has_leftovers) or asked
@@ -74,19 +74,19 @@ def menu_bar(
         imgui.end_menu()
     if imgui.begin_menu("Edit"):
         close_on_escape()
-        asked = _item(view, Command.UNDO, undo is not None, undo) or asked
-        asked = _item(view, Command.REDO, redo is not None, redo) or asked
+        asked = _item(view, Command.UNDO, not why_not(Command.UNDO, session), undo) or asked
+        asked = _item(view, Command.REDO, not why_not(Command.REDO, session), redo) or asked
         asked = _item(view, Command.HISTORY, session is not None) or asked
         imgui.separator()
-        asked = _item(view, Command.DELETE_PINS, bool(pins)) or asked
-        asked = _item(view, Command.CLEAR_PINS, bool(pins)) or asked
         asked = _item(view, Command.RESET_POSE) or asked
         imgui.separator()
         asked = _item(view, Command.SYMMETRY, selected=view.symmetric) or asked
         for command in (Command.FLIP_POSE, Command.MIRROR_LEFT, Command.MIRROR_RIGHT):
             asked = _item(view, command) or asked
-        imgui.separator()
-        asked = _choices(view, "freedom") or asked
+        imgui.end_menu()
+    if imgui.begin_menu("Pins", session is not None) and session is not None:
+        close_on_escape()
+        asked = _pins(view, session) or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()
@@ -94,7 +94,7 @@ def menu_bar(
         imgui.end_menu()
     if imgui.begin_menu("View"):
         close_on_escape()
-        for command in (Command.FRAME, Command.FRONT, Command.LEFT, Command.RIGHT, Command.THREE_QUARTER):
+        for command in (Command.FRAME, *VIEW_COMMANDS):
             asked = _item(view, command) or asked
         imgui.separator()
         if session is not None:
@@ -144,29 +144,31 @@ def _compare(view: View, session: Session) -> Request | None:
             if imgui.menu_item_simple(f"of {shapes} shape{'s' if shapes > 1 else ''}"):
                 asked = RandomReference(shapes)
         imgui.end_menu()
-    asked = _item(view, Command.FORGET_REFERENCE, session.work.reference is not None) or asked
+    forget = Command.FORGET_REFERENCE
+    asked = _item(view, forget, not why_not(forget, session)) or asked
     imgui.separator()
     return _item(view, Command.CHART) or asked
 
 
-def pin_menu(pin: Pin) -> SetPin | None:
-    """Draw the inside of the menu of a pin; return what the user changes, or None."""
-    request = None
-    close_on_escape()
-    imgui.text_disabled(f"Pin on vertex {pin.vertex}")
+def _pins(view: View, session: Session) -> Request | None:
+    """Draw the inside of the menu of pins."""
+    asked: Request | None = None
+    for command in (Command.SELECT_PINS, Command.LOCK_PINS, Command.HIDE_PINS, Command.DELETE_PINS):
+        asked = _item(view, command, not why_not(command, session)) or asked
+    for command in (Command.SHOW_PINS, Command.CLEAR_PINS):
+        asked = _item(view, command, not why_not(command, session)) or asked
     imgui.separator()
-    for freedom, title in FREEDOMS.items():
-        if imgui.menu_item_simple(title, selected=pin.freedom == freedom) and pin.freedom != freedom:
-            request = SetPin(pin.vertex, freedom=freedom)
-    imgui.set_next_item_width(9 * imgui.get_font_size())
-    flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
-    changed, stiffness = imgui.slider_float("stiffness", pin.stiffness, 0.01, 100.0, "%.2f", flags)
-    if changed or imgui.is_item_deactivated_after_edit():
-        request = SetPin(pin.vertex, stiffness=stiffness, final=imgui.is_item_deactivated_after_edit())
+    asked = _choices(view, "freedom") or asked
+    asked = _item(view, Command.SKETCH_PINS, selected=view.pins.sketching) or asked
+    if imgui.begin_menu("Pins along a stroke"):
+        for count in range(STROKES[0], STROKES[1] + 1):
+            if imgui.menu_item_simple(str(count), selected=view.pins.stroke == count):
+                view.pins.stroke = count
+        imgui.end_menu()
     imgui.separator()
-    if imgui.menu_item_simple("Remove", "Delete"):
-        request = SetPin(pin.vertex, remove=True)
-    return request
+    save = Command.SAVE_LANDMARKS
+    asked = _item(view, save, not why_not(save, session)) or asked
+    return _item(view, Command.LOAD_LANDMARKS) or asked
 
 
 def _item(
@@ -183,7 +185,7 @@ def _item(
         title, key_of(command, view.habit) or None, selected=selected, enabled=enabled
     )
     if command.help:
-        imgui.set_item_tooltip(command.help)
+        explain_item(command.help)
     return command if chosen else None
 
 
@@ -194,6 +196,6 @@ def _choices(view: View, name: str, enabled: bool = True) -> Choose | None:
         for value, title in choice.values.items():
             if imgui.menu_item_simple(title, selected=getattr(view, name) == value):
                 chosen = Choose(name, value)
-            imgui.set_item_tooltip(choice.help)
+            explain_item(choice.help)
         imgui.end_menu()
     return chosen

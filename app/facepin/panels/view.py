@@ -6,6 +6,7 @@ from typing import Literal
 
 from facepin.core.pose import Freedom
 from facepin.panels.guide import Guide
+from facepin.panels.pins import FREEDOMS, PinsView
 from facepin.panels.recovery import RecoveryView
 from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights import WeightsView
@@ -16,12 +17,6 @@ Quality = Literal["auto", "always", "off"]
 
 
 Ghost = Literal["none", "neutral", "reference"]
-
-
-FREEDOMS: dict[Freedom, str] = {
-    "space": "Hold in space (x, y and z)",
-    "screen": "Hold on screen (depth free)",
-}
 
 
 @dataclass
@@ -66,6 +61,7 @@ class View:
     """Toggles that panels change in place."""
 
     weights: WeightsView = field(default_factory=WeightsView)
+    pins: PinsView = field(default_factory=PinsView)
     freedom: Freedom = "space"
     """What new pins constrain."""
     symmetric: bool = False

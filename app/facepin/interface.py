@@ -13,7 +13,7 @@ from facepin.panels import layout
 from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
 from facepin.panels.guide import Hand, draw_guide
-from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint
+from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint, symmetry_sign
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
 from facepin.panels.menu import menu_bar
@@ -215,6 +215,8 @@ def _hand(
             pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
+    if desk.view.symmetric:
+        symmetry_sign(viewport, pixel_ratio, scale)
     hidden = sum(pin.hidden for pin in pins)
     return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
 

@@ -10,14 +10,18 @@ from facepin.core.pose import Pose
 from facepin.desk import Desk
 from facepin.panels import layout
 from facepin.panels.chart import chart_window
+from facepin.panels.filmstrip import filmstrip_window
 from facepin.panels.legend import heat_legend
+from facepin.panels.library import Shown, library_panel
 from facepin.panels.menu import menu_bar, pin_menu
 from facepin.panels.pane_title import pane_title
-from facepin.panels.requests import Request
+from facepin.panels.requests import CancelJob, CancelLoading, Request
 from facepin.panels.solver import solver_panel
-from facepin.panels.status import hint, loading_card, status_line
+from facepin.panels.status import hint, progress_card, status_line
 from facepin.panels.theme import pane_colours
 from facepin.panels.weights import weights_panel
+from facepin.session.edit import Edit
+from facepin.session.filmstrip import filmstrip
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
@@ -41,7 +45,11 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
     rig = session.rig if session else None
     status_line(rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ())
     if desk.loading is not None and desk.loading.is_long:
-        asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
+        title = f"Opening {desk.loading.path.name}"
+        if progress_card(title, desk.loading.fraction, desk.loading.line):
+            asked.append(CancelLoading())
+    elif desk.job is not None and desk.job.is_long and progress_card(desk.job.title, desk.job.fraction, ""):
+        asked.append(CancelJob())
     if desk.dialog is not None:
         desk.dialog.draw()
     if session is not None:
@@ -76,12 +84,48 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             in_gesture=session.in_gesture,
         )
     imgui.end()
+    blend, more = _library(desk, scale)
+    edit = edit or blend
     if edit is not None:
         desk.apply(edit)
     chart: Request | None = None
+    film: Request | None = None
     if desk.view.chart and session is not None:
         desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
-    return [asked for asked in (request, chart) if asked is not None]
+    if desk.view.filmstrip and session is not None and desk.portraits is not None:
+        stills = filmstrip(session)
+        desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
+    return [asked for asked in (request, chart, film, *more) if asked is not None]
+
+
+def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
+    """Draw the library panel, where its tab is open."""
+    layout.beside(layout.LIBRARY, layout.WEIGHTS)
+    layout.without_background(layout.LIBRARY)
+    if desk.view.library_opens:
+        imgui.set_next_window_focus()
+        desk.view.library_opens = False
+    edit: Edit | None = None
+    asked: list[Request] = []
+    session, library, portraits = desk.session, desk.library, desk.portraits
+    is_open = imgui.begin(layout.LIBRARY)[0]
+    if is_open and session is not None and library is not None and portraits is not None:
+        library.looked_at = True
+        panes = session.committed.panes
+        shown = Shown(
+            session.rig,
+            library.poses,
+            lambda pose: portraits.tile(pose.weights, library.picture_file(pose)),
+            panes[min(session.active, len(panes) - 1)].pose.weights,
+            library.folder,
+            library.remark,
+            library.complaints,
+            library.is_reading,
+        )
+        edit, wishes = library_panel(shown, desk.view.library, scale)
+        asked += wishes
+    imgui.end()
+    return edit, asked
 
 
 def over_picture(

@@ -6,6 +6,7 @@ from facepin.core.camera import Viewport
 
 WEIGHTS = "Weights"
 SOLVER = "Solver"
+LIBRARY = "Poses"
 PANEL_WIDTH = 330.0
 SOLVER_HEIGHT = 332.0
 """First sizes of the docked panels, in pixels at 1x scale."""
@@ -61,6 +62,13 @@ def without_background(name: str) -> None:
             imgui.set_next_window_bg_alpha(0.0)
 
 
+def beside(name: str, other: str) -> None:
+    """Dock the next window, `name`, as a tab beside another one, where a kept layout does not know it yet."""
+    window = imgui.internal.find_window_by_name(other)
+    if window is not None and window.dock_id:
+        imgui.set_next_window_dock_id(window.dock_id, imgui.Cond_.first_use_ever)
+
+
 def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
     """Cut a viewport into `count` equal panes, in rows and columns that leave a face as large as possible.
 
@@ -104,4 +112,5 @@ def _build(space: int, scale: float) -> None:
     _, top, bottom = builder.dock_builder_split_node_py(right, imgui.Dir.up, height)
     builder.dock_builder_dock_window(SOLVER, top)
     builder.dock_builder_dock_window(WEIGHTS, bottom)
+    builder.dock_builder_dock_window(LIBRARY, bottom)
     builder.dock_builder_finish(space)

@@ -27,6 +27,12 @@ FREEDOMS: dict[Freedom, str] = {
     "screen": "Hold on screen (depth free)",
 }
 
+POSES_MENU = (
+    (Command.SAVE_TO_LIBRARY, Command.TAKE_POSES),
+    (Command.CONTACT_SHEET, Command.POSE_PICTURES, Command.TURNTABLE),
+    (Command.FILMSTRIP, Command.SAVE_FILMSTRIP),
+)
+
 RANDOM_SHAPES = (1, 2, 4, 8, 12)
 """Sizes of random reference poses on offer."""
 
@@ -79,6 +85,14 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
                 if imgui.menu_item_simple(title, selected=view.freedom == freedom):
                     view.freedom = freedom
             imgui.end_menu()
+        imgui.end_menu()
+    if imgui.begin_menu("Poses", session is not None):
+        close_on_escape()
+        for number, group in enumerate(POSES_MENU):
+            if number:
+                imgui.separator()
+            for command in group:
+                asked = _item(command) or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()

@@ -7,6 +7,7 @@ from pathlib import Path
 from facepin.core.camera import View
 from facepin.core.events import KeyPressed
 from facepin.core.pose import Freedom
+from facepin.panels.library_requests import LibraryRequest
 from facepin.session.solving import SolverChoice
 
 
@@ -40,6 +41,13 @@ class Command(Enum):
     CHART = "Chart of weights and errors", ("F4",)
     SAVE_CHART = "Save the chart", ()
     FORGET_REFERENCE = "Forget the reference", ()
+    SAVE_TO_LIBRARY = "Save the pose to the library", ("Ctrl+B",)
+    TAKE_POSES = "Add the poses of another rig…", ()
+    POSE_PICTURES = "Save a picture of every pose", ()
+    CONTACT_SHEET = "Save a contact sheet", ()
+    TURNTABLE = "Save a turntable", ()
+    FILMSTRIP = "Filmstrip of this work", ("F5",)
+    SAVE_FILMSTRIP = "Save the filmstrip", ()
 
     @property
     def title(self) -> str:
@@ -140,6 +148,11 @@ class CancelLoading:
     """Give up opening a file."""
 
 
+@dataclass(frozen=True)
+class CancelJob:
+    """Give up what is being made beside the work."""
+
+
 Request = (
     Command
     | OpenPath
@@ -151,4 +164,6 @@ Request = (
     | RandomReference
     | SetPin
     | CancelLoading
+    | CancelJob
+    | LibraryRequest
 )

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from facepin.core.pose import Freedom
+from facepin.panels.library_view import LibraryView
 from facepin.panels.weights import WeightsView
 
 Quality = Literal["auto", "always", "off"]
@@ -47,6 +48,11 @@ class View:
     }
 
     weights: WeightsView = field(default_factory=WeightsView)
+    library: LibraryView = field(default_factory=LibraryView)
+    library_opens: bool = False
+    """The library panel was asked for just now."""
+    filmstrip: bool = False
+    """Whether the filmstrip is open."""
     freedom: Freedom = "space"
     """What new pins constrain."""
     quality: Quality = "auto"

@@ -108,7 +108,7 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
     edit: Edit | None = None
     asked: list[Request] = []
     session, library, portraits = desk.session, desk.library, desk.portraits
-    is_open = imgui.begin(layout.LIBRARY)[0]
+    is_open = imgui.begin(layout.LIBRARY, None, imgui.WindowFlags_.no_focus_on_appearing)[0]
     if is_open and session is not None and library is not None and portraits is not None:
         library.looked_at = True
         panes = session.committed.panes

@@ -24,9 +24,9 @@ CONTACT = (320, 360)
 """Width and height of the pictures of a contact sheet."""
 MOST_PIXELS = 48_000_000
 """Of a filmstrip: with more, its pictures are drawn smaller."""
-TURN = 48
+TURN = 36
 """Pictures of a turntable."""
-TURN_HEIGHT = 600
+TURN_HEIGHT = 480
 TURN_SECONDS = 0.06
 """Largest height of its pictures, and how long each is shown."""
 

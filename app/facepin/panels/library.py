@@ -41,10 +41,12 @@ BLEND_WAY = 200.0
 HOW_TO = (
     "Click: put it on the face\n"
     "Shift+click: add it to the face\n"
-    "Alt+drag right: blend it in, in part\n"
+    "Alt+drag to the right: blend it in, in part\n"
     "Ctrl+click: select; two can be compared\n"
-    "Drag: move it elsewhere    Right click: more"
+    "Drag: put it elsewhere in the list\n"
+    "Right click: name, tags, replace, remove"
 )
+IN_SHORT = "Click: apply   Shift: add   Alt+drag: blend"
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +165,7 @@ def _empty(shown: Shown, view: LibraryView) -> None:
         imgui.text("No poses yet")
         imgui.text_disabled("Pose the face, then press Save pose. It appears here as a picture:")
         imgui.spacing()
-        imgui.text_disabled(HOW_TO.replace("    ", "\n"))
+        imgui.text_disabled(HOW_TO)
         imgui.spacing()
         imgui.text_disabled("Pose files that you copy into the folder below are in the library too.")
     imgui.pop_text_wrap_pos()
@@ -176,18 +178,16 @@ def _grid(shown: Shown, poses: Sequence[SavedPose], view: LibraryView, scale: fl
     room = imgui.get_content_region_avail().x
     columns = max(int((room + gap) // (LEAST_CELL * scale + gap)), 1)
     side = (room - gap * (columns - 1)) / columns
-    tall = side + imgui.get_text_line_height() + gap
+    tall = side + imgui.get_text_line_height() + 2 * scale
     view.cells.clear()
     clipper = imgui.ListClipper()
-    clipper.begin(-(-len(poses) // columns), tall)
-    imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(gap, 0))
+    clipper.begin(-(-len(poses) // columns), tall + imgui.get_style().item_spacing.y)
     while clipper.step():
         for row in range(clipper.display_start, clipper.display_end):
             for at in range(row * columns, min((row + 1) * columns, len(poses))):
                 if at % columns:
-                    imgui.same_line()
+                    imgui.same_line(0, gap)
                 asked += _cell(shown, poses[at], view, side, tall, scale)
-    imgui.pop_style_var()
     return asked
 
 
@@ -263,8 +263,7 @@ def _tooltip(pose: SavedPose) -> None:
         imgui.push_text_wrap_pos(24 * imgui.get_font_size())
         imgui.text_colored(imgui.ImVec4(*WARNING), pose.report)
         imgui.pop_text_wrap_pos()
-    imgui.separator()
-    imgui.text_disabled(HOW_TO)
+    imgui.text_disabled(IN_SHORT)
 
 
 def _menu(pose: SavedPose, view: LibraryView) -> list[LibraryRequest]:
@@ -334,7 +333,7 @@ def _drop_place(view: LibraryView, scale: float) -> tuple[str | None] | None:
             after = mouse.x > (left + right) / 2
             x = right + 0.5 * GAP * scale if after else left - 0.5 * GAP * scale
             imgui.get_foreground_draw_list().add_line(
-                imgui.ImVec2(x, top), imgui.ImVec2(x, bottom - GAP * scale), packed(ACCENT), 2.5 * scale
+                imgui.ImVec2(x, top), imgui.ImVec2(x, bottom), packed(ACCENT), 2.5 * scale
             )
             if not after:
                 return (key,)
@@ -348,6 +347,10 @@ def _foot(shown: Shown) -> None:
     if shown.folder is not None:
         imgui.text_disabled(f"{count} pose{'' if count == 1 else 's'} in {shown.folder.name}")
         imgui.set_item_tooltip(f"{shown.remark}\n{shown.folder}")
+    if shown.poses:
+        imgui.same_line()
+        imgui.text_disabled("(?)")
+        imgui.set_item_tooltip(HOW_TO)
     if shown.complaints:
         imgui.same_line()
         many = len(shown.complaints)

@@ -59,7 +59,7 @@ def _differences(rig: Rig, first: SavedPose, second: SavedPose) -> None:
     if not shapes:
         imgui.text_disabled("Both are the same pose.")
         return
-    number = imgui.calc_text_size("-0.00").x + imgui.get_style().item_spacing.x
+    number = imgui.calc_text_size("-0.00").x + 2 * imgui.get_style().item_spacing.x
     right = imgui.get_content_region_avail().x
     columns = (right - 3 * number, right - 2 * number, right - number)
 

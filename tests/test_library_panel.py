@@ -334,3 +334,11 @@ def test_pictures_of_one_press_are_not_given_to_the_face(rig: Path, tmp_path: Pa
         assert not app.desk.tool.holding
         app.release(*middle(app, "Smile"))
         assert app.session.pose.pins == ()
+
+
+def test_without_poses_there_is_no_sheet(rig: Path, tmp_path: Path) -> None:
+    with library(rig, tmp_path, ()) as app:
+        app.ask(Command.CONTACT_SHEET)
+        assert app.desk.is_error
+        assert "no poses" in app.desk.message
+        assert app.desk.job is None

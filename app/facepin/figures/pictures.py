@@ -40,10 +40,18 @@ class Painter:
         while not self._scene.refined:
             self._scene.refine()
 
-    def paint(self, positions: Points, pins: tuple[Pin, ...] = (), moved: Floats | None = None) -> Image:
+    def paint(
+        self,
+        positions: Points,
+        pins: tuple[Pin, ...] = (),
+        moved: Floats | None = None,
+        *,
+        transparent: bool = False,
+    ) -> Image:
         """Return a picture of a posed face, (h, w, 4) uint8, with a marker per pin and a line to its goal.
 
         With `moved` (n,), lengths in the rig's unit, colours show how far each vertex moved (`heat_legend`).
+        Pictures may be `transparent` where the face is not.
         """
         from facepin.gpu.markers import Markers, MarkerState
         from facepin.gpu.pane import Overlays
@@ -63,6 +71,7 @@ class Painter:
             self._mesh,
             self.camera,
             self.size,
+            transparent=transparent,
             samples=0,
             supersampling=SUPERSAMPLING,
             overlays=Overlays(heat=heat),

@@ -100,7 +100,7 @@ def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
 
 
 def _build(space: int, scale: float) -> None:
-    """Solver above weights, both right of the picture."""
+    """Solver above weights, both right of the picture; the library behind the weights."""
     builder = imgui.internal
     builder.dock_builder_remove_node(space)
     builder.dock_builder_add_node(space, imgui.internal.DockNodeFlagsPrivate_.dock_space)
@@ -113,4 +113,7 @@ def _build(space: int, scale: float) -> None:
     builder.dock_builder_dock_window(SOLVER, top)
     builder.dock_builder_dock_window(WEIGHTS, bottom)
     builder.dock_builder_dock_window(LIBRARY, bottom)
+    tabs = builder.dock_builder_get_node(bottom)
+    if tabs is not None:  # else the one that is drawn last lies on top
+        tabs.selected_tab_id = builder.im_hash_str("#TAB", 0, builder.im_hash_str(WEIGHTS))
     builder.dock_builder_finish(space)

@@ -14,10 +14,11 @@ from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.core.saved_pose import SavedPose
 from facepin.files.pose_file import read_pose, write_pose
-from facepin.files.pose_library import free_key, library_folder, pose_files, saved_poses
+from facepin.files.pose_library import free_key, library_folder, pose_files, replaced, saved_poses
 from facepin.files.thumbnails import mark_of, read_thumbnail, write_thumbnail
 from facepin.library import Library
 from facepin.session.session import Session
+from facepin.session.shelf import moved
 from facepin.session.solving import choose
 from small_rigs import sheet
 
@@ -104,6 +105,61 @@ def test_undo_never_takes_a_saved_pose_from_the_disk(tmp_path: Path) -> None:
         shelf.follow()
     assert titles(library(tmp_path)[1]) == ["one", "two"]
     assert titles(shelf) == ["one", "two"]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_undo_of_whatever_was_done_brings_every_file_back(tmp_path: Path, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    for number in range(5):
+        write_pose(tmp_path / f"{number}.json", RIG, Pose(frozen(random.random(4), np.float64)))
+    session, shelf = library(tmp_path)
+
+    def content() -> dict[str, bytes]:
+        return {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+
+    began, steps = shelf.poses, [content()]
+    for _ in range(25):
+        if not shelf.poses:
+            break
+        pose = shelf.poses[random.integers(len(shelf.poses))]
+        change: dict[str, SavedPose | None] = {pose.key: None}
+        match random.integers(10):
+            case 0 | 1:
+                pass
+            case 2 | 3 | 4:
+                before = shelf.poses[random.integers(len(shelf.poses))].key
+                change = dict(moved(shelf.poses, pose.key, before))
+            case 5 | 6:
+                change = {pose.key: replaced(pose, RIG, Pose(frozen(random.random(4), np.float64)))}
+            case _:
+                change = {pose.key: _titled(pose, f"{random.random()}")}
+        session.arrange("Change", change)
+        shelf.follow()
+        steps.append(content())
+        assert titles(library(tmp_path)[1]) == titles(shelf)
+    for wanted in reversed(steps[:-1]):
+        assert session.undo()
+        shelf.follow()
+        assert content() == wanted
+    assert [pose.key for pose in shelf.poses] == [pose.key for pose in began]
+    for _ in steps[1:]:
+        assert session.redo()
+        shelf.follow()
+    assert content() == steps[-1]
+
+
+def test_poses_that_come_while_it_is_open_are_found_when_it_is_read_again(tmp_path: Path) -> None:
+    session, shelf = library(tmp_path)
+    shelf.save(POSE, "one", ())
+    session.arrange("Rename one", {"one": _titled(shelf.pose("one"), "first")})
+    shelf.follow()
+    library(tmp_path)[1].save(POSE, "two", ())  # another window
+    (tmp_path / "broken.json").write_text("{")
+    for _ in range(2):
+        shelf.read_again()
+        shelf.read_all()
+        assert titles(shelf) == ["first", "two"]
+        assert len(shelf.complaints) == 1
 
 
 def test_a_name_of_a_removed_pose_is_not_given_to_another(tmp_path: Path) -> None:

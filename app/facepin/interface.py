@@ -84,7 +84,10 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             in_gesture=session.in_gesture,
         )
     imgui.end()
+    is_first = not layout.is_known(layout.LIBRARY)
     blend, more = _library(desk, scale)
+    if is_first:  # else the tab that is made last lies on top
+        imgui.set_window_focus(layout.WEIGHTS)
     edit = edit or blend
     if edit is not None:
         desk.apply(edit)
@@ -110,6 +113,8 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
     session, library, portraits = desk.session, desk.library, desk.portraits
     is_open = imgui.begin(layout.LIBRARY, None, imgui.WindowFlags_.no_focus_on_appearing)[0]
     if is_open and session is not None and library is not None and portraits is not None:
+        if imgui.is_window_appearing() and library.looked_at:
+            library.read_again()
         library.looked_at = True
         panes = session.committed.panes
         shown = Shown(

@@ -1,5 +1,6 @@
 """The pose library of the open rig: what is on the disk, kept in step with the session."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
@@ -37,7 +38,8 @@ class Library:
         """What the files hold."""
         self._followed: Shelf = {}
         self._standing: tuple[Shelf, tuple[SavedPose, ...]] | None = None
-        self._reading = files.saved_poses(folder, self._rig) if folder is not None else None
+        self._reading: Iterator[SavedPose | FacepinError] | None = None
+        self.read_again()
 
     @property
     def is_reading(self) -> bool:
@@ -73,6 +75,12 @@ class Library:
     def picture_file(self, pose: SavedPose) -> Path | None:
         """Return where the picture of a pose is kept."""
         return None if self.folder is None else self.folder / f"{pose.key}.png"
+
+    def read_again(self) -> None:
+        """Begin to read what is in the folder and not known yet: files may come from elsewhere."""
+        self.complaints.clear()
+        if self.folder is not None:
+            self._reading = files.saved_poses(self.folder, self._rig, self._stored)
 
     def read_all(self) -> None:
         """Read what is not read yet."""

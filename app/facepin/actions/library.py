@@ -32,6 +32,8 @@ def act(request: Request, desk: Desk) -> bool:
     if session is None or library is None:
         return False
     match request:
+        case Command.SAVE_TO_LIBRARY if library.folder is None:
+            raise FacepinError(library.remark)
         case Command.SAVE_TO_LIBRARY:
             desk.view.library.begin_saving(f"Pose {len(library.poses) + 1}")
             desk.view.library_opens = True

@@ -8,7 +8,7 @@ library opens like any other.
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -75,10 +75,15 @@ def pose_files(folder: Path) -> list[Path]:
         raise FacepinError(f"{folder}: cannot be read: {error.strerror or error}") from error
 
 
-def saved_poses(folder: Path, rig: Rig) -> Iterator[SavedPose | FacepinError]:
-    """Read the poses of a library one after another; for a file that is none, give what is wrong with it."""
+def saved_poses(folder: Path, rig: Rig, known: Collection[str] = ()) -> Iterator[SavedPose | FacepinError]:
+    """Read the poses of a library one after another; for a file that is none, give what is wrong with it.
+
+    Files whose keys are `known` are passed over.
+    """
     try:
         for path in pose_files(folder):
+            if path.stem in known:
+                continue
             try:
                 yield read_saved(path, rig)
             except FacepinError as error:
@@ -124,9 +129,12 @@ def write_saved(folder: Path, saved: SavedPose) -> None:
     FacepinError
         If it cannot be written; what was there before stays as it was.
     """
-    document: dict[str, Any] = {**saved.document, "title": saved.title, "tags": list(saved.tags)}
-    if saved.order is not None:
-        document["order"] = saved.order
+    document: dict[str, Any] = dict(saved.document)
+    labels = {"title": (saved.title, saved.key), "tags": (list(saved.tags), []), "order": (saved.order, None)}
+    for field, (value, default) in labels.items():
+        document.pop(field, None)
+        if value != default:  # so that undo leads back to a file without a title, byte for byte
+            document[field] = value
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

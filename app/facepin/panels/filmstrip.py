@@ -31,7 +31,8 @@ def filmstrip_window(
     """
     side, gap = SIDE * scale, imgui.get_style().item_spacing.x
     line = imgui.get_text_line_height_with_spacing()
-    size = imgui.ImVec2(6 * (side + gap), side + 4.2 * line + imgui.get_style().scrollbar_size)
+    width = min(6 * (side + gap), 0.62 * imgui.get_main_viewport().work_size.x)
+    size = imgui.ImVec2(width, side + 4.2 * line + imgui.get_style().scrollbar_size)
     imgui.set_next_window_size(size, imgui.Cond_.first_use_ever)
     opened, stays = imgui.begin(TITLE, True)
     asked: Command | None = None

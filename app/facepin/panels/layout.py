@@ -62,6 +62,11 @@ def without_background(name: str) -> None:
             imgui.set_next_window_bg_alpha(0.0)
 
 
+def is_known(name: str) -> bool:
+    """Say whether a window has been drawn before."""
+    return imgui.internal.find_window_by_name(name) is not None
+
+
 def beside(name: str, other: str) -> None:
     """Dock the next window, `name`, as a tab beside another one, where a kept layout does not know it yet."""
     window = imgui.internal.find_window_by_name(other)
@@ -113,7 +118,4 @@ def _build(space: int, scale: float) -> None:
     builder.dock_builder_dock_window(SOLVER, top)
     builder.dock_builder_dock_window(WEIGHTS, bottom)
     builder.dock_builder_dock_window(LIBRARY, bottom)
-    tabs = builder.dock_builder_get_node(bottom)
-    if tabs is not None:  # else the one that is drawn last lies on top
-        tabs.selected_tab_id = builder.im_hash_str("#TAB", 0, builder.im_hash_str(WEIGHTS))
     builder.dock_builder_finish(space)

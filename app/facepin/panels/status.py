@@ -60,6 +60,7 @@ def progress_card(title: str, fraction: float, line: str) -> bool:
         imgui.WindowFlags_.no_decoration
         | imgui.WindowFlags_.no_saved_settings
         | imgui.WindowFlags_.no_docking
+        | imgui.WindowFlags_.no_focus_on_appearing
     )
     imgui.begin("##progress", None, flags)
     imgui.text(title)

@@ -281,6 +281,18 @@ def test_a_picture_dragged_between_others_moves_its_pose(rig: Path, tmp_path: Pa
         assert titles(app) == ["Smile", "Frown", "Blink"]
 
 
+def test_a_picture_let_go_after_the_last_in_sight_stays_in_sight(rig: Path, tmp_path: Path) -> None:
+    with library(rig, tmp_path, tuple(f"P{number:02}" for number in range(40))) as app:
+        last = app.desk.view.library.cells[2][0]  # the end of the first row
+        x, y = middle(app, last)
+        app.drag(middle(app, "P00"), (x + 20, y))
+        app.step(frames=3)
+        assert titles(app)[:4] == ["P01", "P02", "P00", "P03"]
+        app.drag(middle(app, "P01"), (middle(app, last)[0] - 20, y))
+        app.step(frames=3)
+        assert titles(app)[:4] == ["P01", "P02", "P00", "P03"]  # before the one that follows it anyway
+
+
 def test_two_selected_poses_are_compared(rig: Path, tmp_path: Path) -> None:
     with library(rig, tmp_path) as app:
         before = app.session.work

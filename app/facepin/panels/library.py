@@ -10,33 +10,26 @@ from facepin.core.arrays import Floats
 from facepin.core.measures import active as active_shapes
 from facepin.core.rig import Rig
 from facepin.core.saved_pose import SavedPose, clean_tags
+from facepin.panels.library_gesture import gesture
 from facepin.panels.library_requests import (
     ApplyPose,
     ComparePoses,
     LabelPose,
     LibraryRequest,
-    MovePose,
     RemovePoses,
     ReplacePose,
     SavePose,
-    StopBlending,
 )
 from facepin.panels.library_selection import selection_height, selection_strip
-from facepin.panels.library_view import LibraryView
+from facepin.panels.library_view import GAP, LibraryView
 from facepin.panels.overlays import close_on_escape
 from facepin.panels.theme import ACCENT, TEXT, WARNING, packed
 from facepin.panels.tiles import Tile, draw_tile, shortened
 from facepin.session.edit import Edit
-from facepin.session.shelf import blended, found
+from facepin.session.shelf import found
 
 LEAST_CELL = 92.0
 """Least width of a picture, at 1x scale: as many stand in a row as have it."""
-GAP = 8.0
-"""Between pictures, at 1x scale."""
-DEAD_ZONE = 4.0
-"""How far the mouse moves before a click becomes a drag, at 1x scale."""
-BLEND_WAY = 200.0
-"""How far the mouse goes from nothing to the whole pose, at 1x scale."""
 
 HOW_TO = (
     "Click: put it on the face\n"
@@ -93,7 +86,7 @@ def library_panel(shown: Shown, view: LibraryView, scale: float) -> tuple[Edit |
     if imgui.begin_child("poses", imgui.ImVec2(0, -foot)):
         if poses:
             asked += _grid(shown, poses, view, scale)
-            edit, more = _gesture(shown, poses, view, scale)
+            edit, more = gesture(shown.start, poses, view, scale)
             asked += more
         else:
             _empty(shown, view)
@@ -287,58 +280,6 @@ def _menu(pose: SavedPose, view: LibraryView) -> list[LibraryRequest]:
     if imgui.menu_item_simple("Remove"):
         asked.append(RemovePoses((pose.key,)))
     return asked
-
-
-def _gesture(
-    shown: Shown, poses: Sequence[SavedPose], view: LibraryView, scale: float
-) -> tuple[Edit | None, list[LibraryRequest]]:
-    """Go on with what a press on a picture became: a blend, or a pose on its way to another place."""
-    if view.pressed is None:
-        return None, []
-    io = imgui.get_io()
-    key, x, y = view.pressed
-    pose = next((pose for pose in poses if pose.key == key), None)
-    dx, dy = io.mouse_pos.x - x, io.mouse_pos.y - y
-    if not view.gesture and max(abs(dx), abs(dy)) > DEAD_ZONE * scale:
-        view.gesture = "blend" if io.key_alt else "move"
-    if pose is None or imgui.is_key_pressed(imgui.Key.escape):
-        given_up = view.gesture == "blend"
-        view.pressed, view.gesture = None, ""
-        return None, [StopBlending()] if given_up else []
-    released = not imgui.is_mouse_down(0)
-    if released:
-        gesture, view.gesture, view.pressed = view.gesture, "", None
-    else:
-        gesture = view.gesture
-    if gesture == "blend":
-        view.amount = round(min(max(dx / (BLEND_WAY * scale), 0.0), 1.0), 2)
-        if released and view.amount == 0:
-            return None, [StopBlending()]
-        weights = blended(shown.start, pose.weights, view.amount)
-        label = f"Blend {view.amount:.0%} of {pose.title}"
-        return Edit(label, released, weights=weights), []
-    if gesture == "move":
-        before = _drop_place(view, scale)
-        if released and before is not None and before[0] != key:
-            return None, [MovePose(key, before[0])]
-    return None, []
-
-
-def _drop_place(view: LibraryView, scale: float) -> tuple[str | None] | None:
-    """Mark where a dragged picture would come to stand; return the pose after it, (None,) for the end."""
-    mouse = imgui.get_io().mouse_pos
-    cells = view.cells
-    for at, (key, left, top, right, bottom) in enumerate(cells):
-        if top <= mouse.y < bottom and left - GAP * scale <= mouse.x < right + GAP * scale:
-            after = mouse.x > (left + right) / 2
-            x = right + 0.5 * GAP * scale if after else left - 0.5 * GAP * scale
-            imgui.get_foreground_draw_list().add_line(
-                imgui.ImVec2(x, top), imgui.ImVec2(x, bottom), packed(ACCENT), 2.5 * scale
-            )
-            if not after:
-                return (key,)
-            return (cells[at + 1][0],) if at + 1 < len(cells) else (None,)
-    return None
 
 
 def _foot(shown: Shown) -> None:

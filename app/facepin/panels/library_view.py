@@ -5,6 +5,9 @@ from typing import Literal
 
 from facepin.core.saved_pose import SavedPose
 
+GAP = 8.0
+"""Between pictures, at 1x scale."""
+
 
 @dataclass
 class LibraryView:

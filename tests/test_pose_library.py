@@ -2,6 +2,7 @@
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from facepin.core.saved_pose import SavedPose
 from facepin.files.pose_file import read_pose, write_pose
 from facepin.files.pose_library import free_key, library_folder, pose_files, replaced, saved_poses
 from facepin.files.thumbnails import mark_of, read_thumbnail, write_thumbnail
-from facepin.library import Library
+from facepin.library import Library, library_of
 from facepin.session.session import Session
 from facepin.session.shelf import moved
 from facepin.session.solving import choose
@@ -162,6 +163,36 @@ def test_poses_that_come_while_it_is_open_are_found_when_it_is_read_again(tmp_pa
         assert len(shelf.complaints) == 1
 
 
+def test_poses_of_a_read_only_place_are_there_and_changes_go_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = tmp_path / "studio" / "girl.glb"
+    source.parent.mkdir()
+    source.write_bytes(b"")
+    session = Session(replace(RIG, source=source), [choose("transpose")])
+    shelf = library_of(session, tmp_path / "settings", own=True)
+    for title in ("one", "two"):
+        shelf.save(POSE, title, ())
+    before = {path.name: path.read_bytes() for path in (tmp_path / "studio/girl.poses").iterdir()}
+
+    monkeypatch.setattr(os, "access", lambda path, mode: "studio" not in str(path))
+    session = Session(replace(RIG, source=source), [choose("transpose")])
+    shelf = library_of(session, tmp_path / "settings", own=True)
+    shelf.read_all()
+    assert "read-only" in shelf.remark
+    assert titles(shelf) == ["one", "two"]
+    shelf.save(POSE, "mine", ())
+    session.arrange("Rename one", {"one": _titled(shelf.pose("one"), "first")})
+    shelf.follow()
+    session.arrange("Remove two", {"two": None})
+    with pytest.raises(FacepinError, match="read-only"):
+        shelf.follow()
+    assert {path.name: path.read_bytes() for path in (tmp_path / "studio/girl.poses").iterdir()} == before
+    again = library_of(Session(session.rig, [choose("transpose")]), tmp_path / "settings", own=True)
+    again.read_all()
+    assert titles(again) == ["first", "two", "mine"]
+
+
 def test_a_name_of_a_removed_pose_is_not_given_to_another(tmp_path: Path) -> None:
     session, shelf = library(tmp_path)
     shelf.save(POSE, "Smile", ())
@@ -250,8 +281,6 @@ def test_poses_of_another_rig_come_by_shape_name_with_a_report(tmp_path: Path) -
 
 
 def _named(rig: Rig, names: list[str]) -> Rig:
-    from dataclasses import replace
-
     return replace(rig, shape_names=tuple(names))
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from time import perf_counter
 
@@ -19,12 +20,24 @@ BUDGET = 0.008
 class Library:
     """Poses beside one rig.  Reads them when they are first looked at, a little at a time."""
 
-    def __init__(self, session: Session, folder: Path | None, remark: str) -> None:
-        """Know the poses in `folder`, which need not exist; None where there is no place for any.
+    def __init__(
+        self, session: Session, folder: Path | None, remark: str, shared: Path | None = None
+    ) -> None:
+        """Know the poses of a rig.
 
-        The remark says in one line where that is, and why there.
+        Parameters
+        ----------
+        session : Session
+            Poses are on its rig; its work says what was done to them.
+        folder : Path
+            Where they are kept, need not exist; None where there is no place for any.
+        remark : str
+            Says in one line where that is, and why there.
+        shared : Path
+            A folder that can't be written, whose poses are there too.
         """
         self.remark = remark
+        self._shared = shared
         self.folder = folder
         self.complaints: list[str] = []
         """Files that are no poses, a line each."""
@@ -80,7 +93,8 @@ class Library:
         """Begin to read what is in the folder and not known yet: files may come from elsewhere."""
         self.complaints.clear()
         if self.folder is not None:
-            self._reading = files.saved_poses(self.folder, self._rig, self._stored)
+            places = [self.folder] if self._shared is None else [self.folder, self._shared]
+            self._reading = chain(*(files.saved_poses(each, self._rig, self._stored) for each in places))
 
     def read_all(self) -> None:
         """Read what is not read yet."""
@@ -152,6 +166,7 @@ class Library:
                 if wanted is None:
                     files.remove_saved(self.folder, key)
                     del self._written[key]
+                    self._refuse_shared(key)
                 else:
                     files.write_saved(self.folder, wanted)
                     self._written[key] = wanted
@@ -173,6 +188,11 @@ class Library:
         if self.folder is None:
             raise FacepinError(self.remark)
         return self.folder
+
+    def _refuse_shared(self, key: str) -> None:
+        """Say of a pose that was removed that its file is where nothing can be removed."""
+        if self._shared is not None and (self._shared / f"{key}.json").exists():
+            raise FacepinError(f"{self._shared}: read-only, so '{key}' will be there again next time")
 
     def _taken(self, folder: Path) -> set[str]:
         """Return the names that a new file can't have: also of poses that undo may bring back."""
@@ -221,4 +241,5 @@ def library_of(session: Session, settings: Path | None, *, own: bool) -> Library
         remark = "Poses are kept beside the rig."
     else:
         remark = "The rig's own folder is read-only: its poses are kept among the settings."
+        return Library(session, folder, remark, files.folder_beside(source))
     return Library(session, folder, remark)

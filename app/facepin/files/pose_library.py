@@ -29,6 +29,12 @@ RESERVED = {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt"
 """Names that Windows gives to no file."""
 
 
+def folder_beside(source: Path) -> Path:
+    """Return the folder for poses beside a rig's file or folder, whether it exists or not."""
+    source = source.absolute()
+    return source.with_name((source.name if source.is_dir() else source.stem) + SUFFIX)
+
+
 def library_folder(name: str, source: Path | None, settings: Path | None) -> Path | None:
     """Return where the poses of a rig are kept, whether it exists or not.
 
@@ -48,8 +54,7 @@ def library_folder(name: str, source: Path | None, settings: Path | None) -> Pat
     """
     if source is None:
         return None if settings is None else settings / "poses" / f"{key_of(name)}{SUFFIX}"
-    source = source.absolute()
-    beside = source.with_name((source.name if source.is_dir() else source.stem) + SUFFIX)
+    beside = folder_beside(source)
     if os.access(beside if beside.is_dir() else beside.parent, os.W_OK):
         return beside
     if settings is None:

@@ -14,6 +14,8 @@ from facepin.session.shelf import blended
 
 DEAD_ZONE = 4.0
 """How far the mouse moves before a click becomes a drag, at 1x scale."""
+EDGE = 24.0
+"""How near to an end of the list a dragged picture scrolls it, at 1x scale."""
 BLEND_WAY = 200.0
 """How far the mouse goes from nothing to the whole pose, at 1x scale."""
 
@@ -57,11 +59,21 @@ def gesture(
         label = f"Blend {view.amount:.0%} of {pose.title}"
         return Edit(label, released, weights=weights), []
     if doing == "move":
+        _scroll_along(scale)
         keys = [pose.key for pose in poses]
         place = _drop_place(keys, view, scale)
         if released and place is not None:
             return None, [MovePose(key, [*keys, None][place])]
     return None, []
+
+
+def _scroll_along(scale: float) -> None:
+    """Scroll while the mouse is at the upper or lower end of the list."""
+    mouse, top, height = imgui.get_io().mouse_pos.y, imgui.get_window_pos().y, imgui.get_window_height()
+    edge = min(EDGE * scale, height / 4)
+    past = min(mouse - top - edge, 0.0) + max(mouse - top - height + edge, 0.0)
+    if past:
+        imgui.set_scroll_y(imgui.get_scroll_y() + 0.5 * max(-edge, min(past, edge)))
 
 
 def _drop_place(keys: Sequence[str], view: LibraryView, scale: float) -> int | None:

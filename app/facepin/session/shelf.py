@@ -58,6 +58,8 @@ def moved(poses: Sequence[SavedPose], key: str, before: str | None) -> dict[str,
 def found(poses: Sequence[SavedPose], search: str) -> tuple[SavedPose, ...]:
     """Return the poses whose name or tags hold every word of a search."""
     words = search.lower().split()
+    if not words:
+        return tuple(poses)
     return tuple(
         pose for pose in poses if all(word in " ".join((pose.title, *pose.tags)).lower() for word in words)
     )

@@ -35,7 +35,7 @@ def next_order(poses: Iterable[SavedPose]) -> float:
 def moved(poses: Sequence[SavedPose], key: str, before: str | None) -> dict[str, SavedPose]:
     """Return the poses that change when one is put before another, or last for None.
 
-    As few as possible, since each is a file: mostly the moved one alone, all where no number lies between.
+    As few as possible, since each is a file: mostly the moved one alone, more where no number lies between.
     """
     if before == key:
         return {}
@@ -51,8 +51,13 @@ def moved(poses: Sequence[SavedPose], key: str, before: str | None) -> dict[str,
         order = _between(left, np.inf if right is None else right)
         if left < order and (right is None or order < right):
             return {key: replace(pose, order=order)}
-    numbered = [replace(each, order=float(number)) for number, each in enumerate(whole, 1)]
-    return {each.key: each for each, old in zip(numbered, whole, strict=True) if each.order != old.order}
+    # Those after it that have no order stay last without one.
+    last = max(at for at, each in enumerate(whole) if each is pose or each.order is not None)
+    return {
+        each.key: replace(each, order=float(number))
+        for number, each in enumerate(whole[: last + 1], 1)
+        if each.order != number
+    }
 
 
 def found(poses: Sequence[SavedPose], search: str) -> tuple[SavedPose, ...]:

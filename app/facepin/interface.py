@@ -45,7 +45,12 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
-    asked: list[Request | None] = [menu_bar(desk.view, recent, session)]
+    spacing = imgui.get_style().item_spacing
+    imgui.push_style_var(
+        imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, 2 * spacing.y)
+    )  # easier to hit
+    asked: list[Request | None] = [menu_bar(view, recent, session)]
+    imgui.pop_style_var()
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)

@@ -7,7 +7,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.fuzzy import match
-from facepin.panels.availability import why_not
+from facepin.panels.availability import is_on, why_not
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.requests import (
     AddPane,
@@ -75,7 +75,8 @@ def _command(command: Command, view: View, session: Session | None) -> Entry:
     }.get(command)
     title = f"{command.title}: {label}" if label else command.title
     key, reason = key_of(command, view.habit), why_not(command, session)
-    return Entry(title, command.topic, command, command.help, key, reason)
+    on = is_on(command, view, session.active if session else 0)
+    return Entry(title, command.topic, command, command.help, key, reason, on)
 
 
 def _solvers(view: View, session: Session) -> list[Entry]:

@@ -100,6 +100,16 @@ class Command(Enum):
         "View",
         "Looks half from the side, half from the front.",
     )
+    BACK = "Back", ("Ctrl+1", "Ctrl+Numpad 1"), "View", "Looks at the back of the head."
+    TURN_LEFT = "Turn to the left", ("Numpad 4",), "View", "Steps round the face, to the left of the picture."
+    TURN_RIGHT = (
+        "Turn to the right",
+        ("Numpad 6",),
+        "View",
+        "Steps round the face, to the right of the picture.",
+    )
+    TURN_UP = "Turn up", ("Numpad 8",), "View", "Looks from a step higher."
+    TURN_DOWN = "Turn down", ("Numpad 2",), "View", "Looks from a step lower."
     HEAT = (
         "Heat map of the move",
         ("H",),
@@ -164,6 +174,7 @@ VIEW_COMMANDS: dict[Command, View] = {
     Command.LEFT: "left",
     Command.RIGHT: "right",
     Command.THREE_QUARTER: "three-quarter",
+    Command.BACK: "back",
 }
 
 HABIT_KEYS: dict[Habit, dict[Command, tuple[str, ...]]] = {

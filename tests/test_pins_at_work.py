@@ -412,7 +412,7 @@ def test_several_panes_share_selection_strokes_and_nudges(app: App) -> None:
     app.key("b")
     viewport = app.frame.viewports[1]
     x, y = viewport.x + viewport.width / 2, viewport.y + 0.66 * viewport.height
-    app.drag((x - 30, y), (x + 30, y), moves=6)
+    app.drag((x - 50, y), (x + 50, y), moves=6)
     assert app.session.active == 1
     pins = app.session.pose.pins
     new = {pin.vertex for pin in pins[len(old) :]}

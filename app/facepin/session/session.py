@@ -12,7 +12,7 @@ from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
-from facepin.core.pose import Pose, rest_pose
+from facepin.core.pose import Pose, hold_alike, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.edit import Edit
@@ -305,6 +305,10 @@ class Session:
             return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
         if edit.solve:
             return self._dragged(panes, poses)
+        if hold_alike(
+            pins, panes[0].pose.pins
+        ):  # the last drag is still what another solver can be asked for
+            return tuple(replace(pane, pose=pose) for pane, pose in zip(panes, poses, strict=True))
         # A new pin holds what is there; but what a removed one made must not fall back with the next drag.
         placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in panes[0].pose.pins}
         return tuple(

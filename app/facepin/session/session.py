@@ -78,6 +78,14 @@ class Session:
         self._active = 0
         self._solvers: dict[tuple[int, SolverChoice, ShapeControl], PinSolver] = {}
 
+    @classmethod
+    def resumed(cls, rig: Rig, work: Work, active: int = 0) -> "Session":
+        """Begin where another session ended: with its work, whose panes have numbers 0, 1, 2 and so on."""
+        session = cls(rig, [pane.choice for pane in work.panes])
+        session._history = History(work)
+        session._active = active
+        return session
+
     @property
     def work(self) -> Work:
         """Everything as it is shown now."""
@@ -143,8 +151,13 @@ class Session:
 
     @property
     def steps(self) -> tuple[Step[Work], ...]:
-        """The undo steps up to now, with what they led to."""
-        return self._history.done
+        """All undo steps, from the beginning to the last that can be redone."""
+        return self._history.steps
+
+    @property
+    def step(self) -> int:
+        """Which of the steps is the current one."""
+        return self._history.at
 
     def apply(self, edit: Edit) -> None:
         """Show an edit, and make it an undo step when it is final.
@@ -266,6 +279,11 @@ class Session:
         """Bring the last undone step back; False when there is none."""
         self._preview = None
         return self._history.redo()
+
+    def go_to(self, step: int) -> bool:
+        """Undo or redo to one of the steps; False when there is none of that number."""
+        self._preview = None
+        return self._history.go_to(step)
 
     def _show(self, label: str, work: Work, *, final: bool) -> None:
         self._preview = None if final else work

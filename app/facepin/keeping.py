@@ -52,6 +52,10 @@ class Keeper:
         """Say whether the work is in a file of the user's, as it is."""
         return session.committed is self._saved
 
+    def take_for_saved(self, session: Session) -> None:
+        """Take the work as it is for saved: what it holds since it was is in files of its own."""
+        self._saved = session.committed
+
     def begin(
         self, session: Session, file: Path | None, leftover: Leftover | None = None, *, saved: bool = True
     ) -> None:

@@ -11,9 +11,11 @@ from facepin.actions import (
     helping,
     keeping,
     landmarks,
+    library,
     mirroring,
     pinning,
     posing,
+    series,
     viewing,
 )
 from facepin.desk import Desk
@@ -29,6 +31,8 @@ TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
     comparing.act,
     viewing.act,
     helping.act,
+    library.act,
+    series.act,
 )
 
 

@@ -27,6 +27,12 @@ from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
 from facepin.solvers import SOLVERS
 
+POSES_MENU = (
+    (Command.SAVE_TO_LIBRARY, Command.TAKE_POSES),
+    (Command.CONTACT_SHEET, Command.POSE_PICTURES, Command.TURNTABLE),
+    (Command.FILMSTRIP, Command.SAVE_FILMSTRIP),
+)
+
 
 def menu_bar(
     view: View, recent: Sequence[Path], session: Session | None, *, has_leftovers: bool = False
@@ -87,6 +93,14 @@ def menu_bar(
     if imgui.begin_menu("Pins", session is not None) and session is not None:
         close_on_escape()
         asked = _pins(view, session) or asked
+        imgui.end_menu()
+    if imgui.begin_menu("Poses", session is not None):
+        close_on_escape()
+        for number, group in enumerate(POSES_MENU):
+            if number:
+                imgui.separator()
+            for command in group:
+                asked = _item(view, command) or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()

@@ -34,6 +34,8 @@ WIDTH = 38.0
 """Of the window, in heights of a letter."""
 IN_HELP = 2.0
 """What it is worth that a word stands in the help of an action, but not in its title."""
+SCATTERED = 1.9
+"""What it is worth at most that the letters of a word stand apart in a title: less than in the help."""
 LATELY = 3.0
 """What it is worth at most that an action was chosen lately."""
 
@@ -126,13 +128,16 @@ def ranked(found: Sequence[Entry], query: str, lately: Sequence[str]) -> list[tu
         worth, letters = 0.0, set[int]()
         for word in query.split():
             way = match(word, entry.title)
-            if way is not None:
-                worth += way[0]
-                letters.update(way[1])
-            elif len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower():
-                worth += IN_HELP
-            else:
+            if len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower():
+                worth += IN_HELP if way is None else max(way[0], IN_HELP)
+            elif way is None:
                 break
+            elif len(word) > 2 and word.lower() not in entry.title.lower():
+                worth += min(way[0], SCATTERED)
+            else:
+                worth += way[0]
+            if way is not None:
+                letters.update(way[1])
         else:
             name = _plain(entry)
             if name in lately:

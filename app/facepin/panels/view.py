@@ -6,6 +6,7 @@ from typing import Literal
 
 from facepin.core.pose import Freedom
 from facepin.panels.guide import Guide
+from facepin.panels.library_view import LibraryView
 from facepin.panels.pins import FREEDOMS, PinsView
 from facepin.panels.recovery import RecoveryView
 from facepin.panels.theme import THEMES, Theme, ThemeName
@@ -62,6 +63,11 @@ class View:
 
     weights: WeightsView = field(default_factory=WeightsView)
     pins: PinsView = field(default_factory=PinsView)
+    library: LibraryView = field(default_factory=LibraryView)
+    library_opens: bool = False
+    """The library panel was asked for just now."""
+    filmstrip: bool = False
+    """Whether the filmstrip is open."""
     freedom: Freedom = "space"
     """What new pins constrain."""
     symmetric: bool = False

@@ -1,7 +1,7 @@
 """One open rig being posed: its panes, the undo history, and the solving of every edit."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import count
 
@@ -12,11 +12,12 @@ from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
-from facepin.core.pose import Pose, rest_pose
+from facepin.core.pose import Pose, hold_alike, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.edit import Edit
 from facepin.session.history import History, Step
+from facepin.session.shelf import Shelf
 from facepin.session.solving import PinSolver, Solved, SolverChoice, snapped
 
 MOST_PANES = 4
@@ -53,6 +54,8 @@ class Work:
     """Who is whose twin, where the user has said so."""
     reference: Floats | None = None
     """Weights (k,) that the panes are measured against (Figure 4a of the paper), if any."""
+    shelf: Shelf = field(default_factory=dict)
+    """What was done to poses of the library, see `facepin.session.shelf`."""
 
 
 class Session:
@@ -249,6 +252,18 @@ class Session:
         kept = None if weights is None else frozen(weights, np.float64)
         self._show(label, replace(self._history.current, reference=kept), final=True)
 
+    def compare(self, label: str, weights: Floats, reference: Floats) -> None:
+        """Put weights (k,) on the active pane, to be measured against others (k,), as one step."""
+        before = self._history.current
+        panes = self._edited(before, Edit(label, True, weights=weights))
+        kept = frozen(reference, np.float64)
+        self._show(label, replace(before, panes=panes, reference=kept), final=True)
+
+    def arrange(self, label: str, changes: Shelf) -> None:
+        """Change poses of the library, as one step."""
+        before = self._history.current
+        self._show(label, replace(before, shelf={**before.shelf, **changes}), final=True)
+
     def cancel(self) -> None:
         """Drop the gesture in progress; the poses are exactly those before it."""
         self._preview = None
@@ -308,6 +323,10 @@ class Session:
             return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
         if edit.solve:
             return self._dragged(panes, poses)
+        if hold_alike(
+            pins, panes[0].pose.pins
+        ):  # the last drag is still what another solver can be asked for
+            return tuple(replace(pane, pose=pose) for pane, pose in zip(panes, poses, strict=True))
         # A new pin holds what is there; but what a removed one made must not fall back with the next drag.
         placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in panes[0].pose.pins}
         return tuple(

@@ -108,7 +108,7 @@ def over_picture(
                 has_reference=session.work.reference is not None,
             )
     for view, place in zip(desk.view.panes, viewports, strict=False):
-        if view.heat:
+        if view.shading == "heat":
             heat_legend(session.rig.height, place, pixel_ratio, scale)
     if not session.pose.pins and not session.pose.weights.any():
         hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)

@@ -122,13 +122,15 @@ class Stage:
     def overlays(self, pane: int, view: PaneView) -> Overlays:
         """Return what `view` shows over the face of a pane; measures and uploads only what it asks for."""
         work, shown = self.session.work, self._shown[pane]
-        heat = shown.gauge.heat(work.panes[pane], self.positions(pane)) if view.heat else None
+        heat = None
         if view.reach:
             heat = shown.gauge.reach(work.panes[pane])
+        elif view.shading == "heat":
+            heat = shown.gauge.heat(work.panes[pane], self.positions(pane))
         ghost = None
         if view.ghost == "neutral" or (view.ghost == "reference" and work.reference is not None):
             ghost = self._ghost(view.ghost, None if view.ghost == "neutral" else work.reference)
-        return Overlays(heat, view.wireframe, ghost)
+        return Overlays(heat, view.wireframe, ghost, view.shading)
 
     def _ghost(self, kind: Ghost, weights: Floats | None) -> PaneMesh:
         """Return the mesh of a ghost, with the pose of `weights`; None is the neutral."""
@@ -171,15 +173,16 @@ class Stage:
         if fine or canvas.samples:
             self._still.forget()
             self._scene.background.draw(canvas, sights)
-            part: Part = "all"
+            parts: list[Part] = ["all"] * len(sights)
         else:
-            faces = [None if view.heat else self.mesh(at) for at, view in enumerate(overlays[: len(sights)])]
+            by_motion = [not view.measured and view.shading == "studio" for view in overlays[: len(sights)]]
+            faces = [self.mesh(at) if yes else None for at, yes in enumerate(by_motion)]
             self._still.draw(canvas, sights, faces)
-            part = "moving"
+            parts = ["moving" if yes else "all" for yes in by_motion]
         for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
             framing = frame(camera, viewport, canvas.size[1])
             over = self.overlays(at, overlays[at])
-            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, part=part, scale=scale)
+            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, part=parts[at], scale=scale)
             markers = _markers(pane.pose, self.positions(at), tool)
             self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 

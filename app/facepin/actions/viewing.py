@@ -19,8 +19,10 @@ def act(request: Request, desk: Desk) -> bool:
             desk.look(frame_points(stage.positions(active), desk.viewport.aspect, desk.camera))
         case Command() if request in VIEW_COMMANDS:
             desk.look(desk.camera.looking(VIEW_COMMANDS[request]))
+        case Command.SHADING:
+            shown.next_mode()
         case Command.HEAT:
-            shown.heat = not shown.heat
+            shown.toggle_heat()
         case Command.WIREFRAME:
             shown.wireframe = not shown.wireframe
         case Command.GHOST:

@@ -20,14 +20,21 @@ WHITE: Colour = (1.0, 1.0, 1.0)
 
 @dataclass(frozen=True)
 class Material:
-    """Base colour (sRGB 0..1) and roughness (0 mirror .. 1 chalk)."""
+    """What a surface is made of."""
 
     colour: Colour
+    """Base colour, sRGB 0..1."""
     roughness: float
+    """0 mirror .. 1 chalk."""
+    scatter: Colour = (0.10, 0.08, 0.07)
+    """How far light spreads beneath the surface before it comes out, as a share of its curvature: linear."""
 
 
-CLAY = Material((0.58, 0.55, 0.53), Part.roughness)
+CLAY = Material((0.47, 0.45, 0.435), Part.roughness, (0.20, 0.17, 0.15))
 """What says nothing about itself."""
+
+FLESH: Colour = (0.42, 0.21, 0.13)
+"""Scatter of skin, and of what is softer still."""
 
 EYEBALL = Material((0.72, 0.70, 0.68), 0.08)
 """The white of an eye; its iris is painted on."""
@@ -39,9 +46,10 @@ BY_NAME: tuple[tuple[str, Material | None], ...] = (
     ("pupil", Material((0.02, 0.02, 0.02), 0.08)),
     ("sclera|eyeball|eyewhite", EYEBALL),
     ("teeth|tooth", Material((0.83, 0.81, 0.77), 0.25)),
-    ("gum|tongue|mouthsocket", Material((0.54, 0.36, 0.34), 0.35)),
+    ("gum|tongue|mouthsocket", Material((0.54, 0.36, 0.34), 0.35, FLESH)),
     ("hair|beard|moustache", Material((0.26, 0.20, 0.17), 0.45)),
     ("^(left|right)?eyes?(l|r|left|right)?$", EYEBALL),
+    ("skin|face|head|^ears?(l|r)?$", replace(CLAY, scatter=FLESH)),
 )
 """Pattern in a part's name (small letters only) and its material; the first that fits counts.  None: clear
 shells in front of the eye and cards that only a texture turns into lashes; they are left out."""
@@ -57,6 +65,7 @@ class Run:
     tint: Colour
     """Linear colour that multiplies the vertex colours."""
     roughness: float
+    scatter: Colour
     hidden: Literal["back", "front"] | None
     """The side that is never seen, so that triangles showing it are left out."""
 
@@ -92,7 +101,9 @@ def material(part: Part, coloured: bool) -> Material | None:
             return None
         named = CLAY
     colour = WHITE if coloured else own or named.colour
-    return Material(colour, named.roughness if part.roughness == Part.roughness else part.roughness)
+    roughness = named.roughness if part.roughness == Part.roughness else part.roughness
+    uncoloured = own is None and not coloured and colour == CLAY.colour
+    return Material(colour, roughness, (CLAY if uncoloured else named).scatter)
 
 
 def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
@@ -104,7 +115,7 @@ def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
             continue
         r, g, b = linear(np.array(look.colour)).tolist()
         first, count = 3 * piece.triangles.start, 3 * len(piece.triangles)
-        run = Run(first, count, (r, g, b), look.roughness, piece.hidden)
+        run = Run(first, count, (r, g, b), look.roughness, look.scatter, piece.hidden)
         before = runs[-1] if runs else None
         if before is not None and before.first + before.count == first:
             joined = replace(before, count=before.count + count)

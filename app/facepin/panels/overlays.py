@@ -1,7 +1,8 @@
-"""Menu items of what a pane shows over its face, and how a menu is left."""
+"""Menu items of how a pane shows its face, and how a menu is left."""
 
 from imgui_bundle import imgui
 
+from facepin.core.shading import MODES
 from facepin.panels.requests import Command
 from facepin.panels.view import Ghost, PaneView
 
@@ -13,9 +14,16 @@ GHOSTS: dict[Ghost, str] = {
 
 
 def overlay_items(view: PaneView, *, has_reference: bool) -> None:
-    """Draw a menu item for each overlay of a pane, changed in place."""
-    if imgui.menu_item_simple(Command.HEAT.title, Command.HEAT.shortcuts[0], selected=view.heat):
-        view.heat = not view.heat
+    """Draw the shading of a pane and a menu item for each overlay, changed in place."""
+    if imgui.begin_menu("Shading"):
+        for name, mode in MODES.items():
+            shortcut = Command.HEAT.shortcuts[0] if name == "heat" else None
+            if imgui.menu_item_simple(mode.title, shortcut, selected=view.mode == name):
+                view.mode = name
+        imgui.separator()
+        if imgui.menu_item_simple(Command.SHADING.title, Command.SHADING.shortcuts[0]):
+            view.next_mode()
+        imgui.end_menu()
     if imgui.menu_item_simple(
         Command.WIREFRAME.title, Command.WIREFRAME.shortcuts[0], selected=view.wireframe
     ):

@@ -31,6 +31,7 @@ class Command(Enum):
     LEFT = "Character's left", ("3", "Numpad 3")
     RIGHT = "Character's right", ("Ctrl+3",)
     THREE_QUARTER = "Three-quarter", ("7", "Numpad 7")
+    SHADING = "Next shading", ("S",)
     HEAT = "Heat map of the move", ("H",)
     WIREFRAME = "Wireframe", ("W",)
     GHOST = "Ghost: none, neutral, reference", ("G",)

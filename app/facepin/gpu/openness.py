@@ -97,7 +97,7 @@ class Openness:
 
 
 def _opening(arrived: Points, offered: Points) -> tuple[Points, Points]:
-    """Return the share of light (2, n), and where along the surface it comes from (2, n, 3): least squares."""
+    """Return the share of light (2, n), and where along the surface it comes from, (2, n, 3)."""
     total = offered[..., :1]
     share: Points = arrived[..., :1] / total
     # Light from everywhere, weighted by the cosine, has a mean square of 1/4 along any line in the surface.

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from time import monotonic
 
 import numpy as np
 from PIL import Image
@@ -43,13 +44,12 @@ class App:
         for _ in range(frames):
             self.frame = next(self.loop)
 
-    def until(self, condition: Callable[[], bool], frames: int = 2000) -> None:
+    def until(self, condition: Callable[[], bool], seconds: float = 60.0) -> None:
         """Draw frames until something is so."""
-        for _ in range(frames):
-            if condition():
-                return
+        end = monotonic() + seconds
+        while not condition():
+            assert monotonic() < end, "it never came to pass"
             self.frame = next(self.loop)
-        raise AssertionError("it never came to pass")
 
     def move(self, x: float, y: float) -> None:
         self.step(PointerMoved(x, y))

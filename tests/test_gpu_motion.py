@@ -25,9 +25,11 @@ def strip(columns: int = COLUMNS, split: bool = False) -> Rig:
     return build_rig("strip", points, faces.ravel(), np.full(len(faces), 4), [("move", np.ones_like(points))])
 
 
-def motion_of(rig: Rig) -> Motion:
+def motion_of(rig: Rig, pixel: float = 1.0) -> Motion:
     order = draw_order(rig)
-    return Motion(rig, order.triangles, material_runs(rig, order.runs))
+    motion = Motion(rig, order.triangles, material_runs(rig, order.runs))
+    motion.forget(pixel)
+    return motion
 
 
 def lifted(rig: Rig, chosen: np.ndarray, height: float) -> np.ndarray:
@@ -45,8 +47,8 @@ def corners(motion: Motion, still: bool) -> np.ndarray:
 def test_nothing_is_sorted_before_something_has_moved() -> None:
     rig = sheet(COLUMNS, ROWS)
     motion = motion_of(rig)
-    assert not motion.follow(rig.neutral, 1.0)
-    assert not motion.follow(rig.neutral, 1.0)
+    assert not motion.follow(rig.neutral)
+    assert not motion.follow(rig.neutral)
     assert not motion.still
     assert sum(run.count for run in motion.moving) == 3 * len(rig.triangles)
     assert motion.settled(rig.neutral) is rig.neutral
@@ -55,8 +57,8 @@ def test_nothing_is_sorted_before_something_has_moved() -> None:
 def test_what_shares_a_corner_with_what_moves_is_drawn_too() -> None:
     rig = strip()
     motion = motion_of(rig)
-    motion.follow(rig.neutral, 1.0)
-    assert motion.follow(lifted(rig, rig.neutral[:, 0] == 0, 1.0), 1.0)
+    motion.follow(rig.neutral)
+    assert motion.follow(lifted(rig, rig.neutral[:, 0] == 0, 1.0))
     moving, still = corners(motion, still=False), corners(motion, still=True)
     assert rig.neutral[moving, 0].max() == 2, "the first quad moves, and the light at its far edge"
     assert rig.neutral[still, 0].min() == 2
@@ -69,26 +71,26 @@ def test_what_shares_a_corner_with_what_moves_is_drawn_too() -> None:
 def test_vertices_that_a_seam_has_split_count_as_one() -> None:
     rig = strip(split=True)
     motion = motion_of(rig)
-    motion.follow(rig.neutral, 1.0)
-    motion.follow(lifted(rig, rig.neutral[:, 0] == COLUMNS // 2 - 1, 1.0), 1.0)
+    motion.follow(rig.neutral)
+    motion.follow(lifted(rig, rig.neutral[:, 0] == COLUMNS // 2 - 1, 1.0))
     assert rig.neutral[corners(motion, still=False), 0].max() == COLUMNS // 2 + 1
 
 
 def test_a_move_that_nobody_sees_is_none() -> None:
     rig = strip()
     first, last = rig.neutral[:, 0] == 0, rig.neutral[:, 0] == COLUMNS - 1
-    motion = motion_of(rig)
-    motion.follow(rig.neutral, 0.1)
-    assert motion.follow(lifted(rig, first, 1.0), 0.1)
+    motion = motion_of(rig, 0.1)
+    motion.follow(rig.neutral)
+    assert motion.follow(lifted(rig, first, 1.0))
     pose = lifted(rig, first, 2.0)
     pose[last, 2] = 0.99 * VISIBLE * 0.1
-    assert not motion.follow(pose, 0.1)
+    assert not motion.follow(pose)
     expected = pose.copy()
     expected[last, 2] = 0
     np.testing.assert_array_equal(motion.settled(pose), expected)
     pose = pose.copy()
     pose[last, 2] = 1.01 * VISIBLE * 0.1
-    assert motion.follow(pose, 0.1)
+    assert motion.follow(pose)
     np.testing.assert_array_equal(motion.settled(pose), pose)
     assert rig.neutral[corners(motion, still=False), 0].max() == COLUMNS - 1
 
@@ -96,27 +98,27 @@ def test_a_move_that_nobody_sees_is_none() -> None:
 def test_what_has_moved_may_move_on_and_come_back_without_sorting() -> None:
     rig = strip()
     motion = motion_of(rig)
-    motion.follow(rig.neutral, 1.0)
+    motion.follow(rig.neutral)
     first = rig.neutral[:, 0] == 0
-    assert motion.follow(lifted(rig, first, 1.0), 1.0)
+    assert motion.follow(lifted(rig, first, 1.0))
     before = motion.triangles
     for height in (3.0, -5.0, 0.0):
-        assert not motion.follow(lifted(rig, first, height), 1.0)
+        assert not motion.follow(lifted(rig, first, height))
     assert motion.triangles is before
 
 
 def test_when_nearly_all_moves_nothing_is_sorted_until_it_is_forgotten() -> None:
     rig = strip()
     motion = motion_of(rig)
-    motion.follow(rig.neutral, 1.0)
+    motion.follow(rig.neutral)
     everything = np.ones(rig.vertex_count, bool)
-    motion.follow(lifted(rig, everything, 1.0), 1.0)
+    motion.follow(lifted(rig, everything, 1.0))
     assert not motion.still
-    assert not motion.follow(lifted(rig, everything, 2.0), 1.0)
+    assert not motion.follow(lifted(rig, everything, 2.0))
     assert sum(run.count for run in motion.moving) == 3 * len(rig.triangles)
-    motion.forget()
-    motion.follow(rig.neutral, 1.0)
-    motion.follow(lifted(rig, rig.neutral[:, 0] == 0, 1.0), 1.0)
+    motion.forget(1.0)
+    motion.follow(rig.neutral)
+    motion.follow(lifted(rig, rig.neutral[:, 0] == 0, 1.0))
     assert motion.still
 
 
@@ -127,7 +129,7 @@ def test_vertices_without_triangles_do_not_disturb() -> None:
         "loose", points, rig.corners, rig.face_sizes, [("move", np.ones_like(points, dtype=np.float64))]
     )
     motion = motion_of(loose)
-    motion.follow(loose.neutral, 1.0)
+    motion.follow(loose.neutral)
     last = np.arange(loose.vertex_count) == loose.vertex_count - 1
-    motion.follow(lifted(loose, last, 1.0), 1.0)
-    assert not motion.follow(lifted(loose, last, 9.0), 1.0)
+    motion.follow(lifted(loose, last, 1.0))
+    assert not motion.follow(lifted(loose, last, 9.0))

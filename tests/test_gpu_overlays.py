@@ -35,7 +35,7 @@ class Easel:
     def draw(self, overlays: Overlays = BARE, *, fine: bool = True, scale: float = 1.0) -> NDArray[np.int64]:
         """Return a picture on transparent ground, (h, w, 4)."""
         self.canvas.clear()
-        framing = frame(camera(self.rig), WHOLE, SIZE)
+        framing = frame(camera(self.rig), WHOLE)
         draw_pane(self.canvas, framing, self.mesh, overlays, fine=fine, scale=scale)
         return self.canvas.read().astype(np.int64)
 
@@ -90,7 +90,7 @@ def test_a_sheet_is_lit_on_both_sides(gl: moderngl.Context) -> None:
     rig = bowl()
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
         canvas.clear()
-        inside = frame(camera(rig).orbited(np.pi, 0.0), WHOLE, SIZE)
+        inside = frame(camera(rig).orbited(np.pi, 0.0), WHOLE)
         draw_pane(canvas, inside, mesh, Overlays(heat=np.zeros(rig.vertex_count, np.float32)), fine=True)
         assert canvas.read()[MIDDLE, MIDDLE, :3].min() > 60
 
@@ -115,7 +115,7 @@ class Grid:
 
     def _draw(self, view: Camera, overlays: Overlays, scale: float) -> NDArray[np.int64]:
         self.canvas.clear()
-        draw_pane(self.canvas, frame(view, WHOLE, SIZE), self.mesh, overlays, fine=True, scale=scale)
+        draw_pane(self.canvas, frame(view, WHOLE), self.mesh, overlays, fine=True, scale=scale)
         return self.canvas.read().astype(np.int64)
 
 
@@ -173,7 +173,7 @@ def _lines_of(mesh: PaneMesh, canvas: Canvas, view: Camera) -> NDArray[np.bool_]
     pictures = []
     for overlays in (BARE, Overlays(wireframe=True)):
         canvas.clear()
-        draw_pane(canvas, frame(view, WHOLE, SIZE), mesh, overlays, fine=True)
+        draw_pane(canvas, frame(view, WHOLE), mesh, overlays, fine=True)
         pictures.append(canvas.read().astype(int))
     changed: NDArray[np.bool_] = np.abs(pictures[0] - pictures[1]).max(axis=2) > 8
     return changed

@@ -90,7 +90,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     However it ends, a pose that nobody saved is kept, and the next start says where.
     """
     view = View()
-    rough, smooth = Canvas(window.ctx, 0), Canvas(window.ctx, 4)
+    rough, smooth = Canvas(window.ctx, 0, window.texture), Canvas(window.ctx, 4, window.texture)
     desk = Desk(
         window.ctx,
         view,
@@ -198,10 +198,10 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
                     desk.tool,
                     window.scale,
                     fine=canvas is smooth,
+                    beside=PANEL,
                 )
                 drawn = wanted
-            window.show(canvas.overlay, viewport)
-            window.fill_beside(PANEL, viewport)
+            window.show(canvas.flat())
         else:
             window.clear(PANEL)
         window.end_frame()

@@ -12,6 +12,7 @@ from facepin.core.camera import Camera, Viewport
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
+from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
 from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
@@ -152,6 +153,7 @@ class Stage:
         scale: float,
         *,
         fine: bool,
+        beside: Colour,
     ) -> None:
         """Draw every pane with its pins.
 
@@ -169,20 +171,24 @@ class Stage:
             Pixels per pixel of a 1x screen.
         fine : bool
             Slower where a processor does the drawing.
+        beside : (r, g, b, a)
+            Colour of what is outside of the panes.
         """
         if fine or canvas.samples:
             self._still.forget()
-            self._scene.background.draw(canvas, sights)
-            parts: list[Part] = ["all"] * len(sights)
+            self._scene.background.draw(canvas, sights, beside)
+            part: Part = "all"
         else:
-            by_motion = [not view.measured and view.shading == "studio" for view in overlays[: len(sights)]]
-            faces = [self.mesh(at) if yes else None for at, yes in enumerate(by_motion)]
-            self._still.draw(canvas, sights, faces)
-            parts = ["moving" if yes else "all" for yes in by_motion]
+            faces = [
+                None if view.measured else (self.mesh(at), view.shading)
+                for at, view in enumerate(overlays[: len(sights)])
+            ]
+            self._still.draw(canvas, sights, faces, beside)
+            part = "moving"
         for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
-            framing = frame(camera, viewport, canvas.size[1])
+            framing = frame(camera, viewport)
             over = self.overlays(at, overlays[at])
-            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, part=parts[at], scale=scale)
+            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, part=part, scale=scale)
             markers = _markers(pane.pose, self.positions(at), tool)
             self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 

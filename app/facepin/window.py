@@ -17,7 +17,6 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.events import (
     Button,
@@ -203,23 +202,17 @@ class Window:
 
     def clear(self, colour: tuple[float, float, float, float]) -> None:
         """Fill the window."""
-        self._gl.fill(colour, (0, 0, *self.size))
+        self._gl.fill(colour)
 
-    def fill_beside(self, colour: tuple[float, float, float, float], part: Viewport) -> None:
-        """Fill what is left and right of a part of the window, from its top to its bottom."""
-        width, height = self.size
-        bottom, tall = height - round(part.y + part.height), round(part.height)
-        left, right = round(part.x), round(part.x + part.width)
-        for x, wide in ((0, left), (right, width - right)):
-            if wide > 0:
-                self._gl.fill(colour, (x, bottom, wide, tall))
+    def texture(self, size: tuple[int, int]) -> moderngl.Texture:
+        """Return a texture (RGBA) with its bytes in the order of screens: showing it is a plain copy."""
+        texture = self.ctx.texture(size, 4)
+        self._gl.store_as_screens_do(texture.glo, size)
+        return texture
 
-    def show(self, picture: moderngl.Framebuffer, part: Viewport) -> None:
-        """Copy a part of a picture as large as the window to its place; pixels are means of samples."""
-        left, right = round(part.x), round(part.x + part.width)
-        bottom = picture.height - round(part.y + part.height)
-        top = picture.height - round(part.y)
-        self._gl.copy_to_screen(picture.glo, (left, bottom, right, top))
+    def show(self, picture: moderngl.Framebuffer) -> None:
+        """Fill the window with a picture as large as it is, stored with its first row first."""
+        self._gl.copy_to_screen(picture.glo, picture.size)
 
     def read(self) -> NDArray[np.uint8]:
         """Return what the window shows, (h, w, 3) uint8, first row on top."""
@@ -318,29 +311,34 @@ class _Screen:
         self._bind = _function("glBindFramebuffer", unsigned, unsigned)
         self._blit = _function("glBlitFramebuffer", *[integer] * 8, unsigned, unsigned)
         self._disable = _function("glDisable", unsigned)
-        self._enable = _function("glEnable", unsigned)
-        self._scissor = _function("glScissor", *[integer] * 4)
+        self._bind_texture = _function("glBindTexture", unsigned, unsigned)
+        self._store = _function("glTexImage2D", unsigned, *[integer] * 5, unsigned, unsigned, pointer)
         self._clear_colour = _function("glClearColor", *[ctypes.c_float] * 4)
         self._clear = _function("glClear", unsigned)
         self._pack = _function("glPixelStorei", unsigned, integer)
         self._read = _function("glReadPixels", *[integer] * 4, unsigned, unsigned, pointer)
 
-    def fill(self, colour: tuple[float, float, float, float], box: tuple[int, int, int, int]) -> None:
-        """Fill a box (left, bottom, width, height) of the window."""
+    def fill(self, colour: tuple[float, float, float, float]) -> None:
+        """Fill the window."""
         self._bind(_FRAMEBUFFER, 0)
-        self._enable(_SCISSOR_TEST)
-        self._scissor(*box)
+        self._disable(_SCISSOR_TEST)
         self._clear_colour(*colour)
         self._clear(_COLOR_BUFFER_BIT)
-        self._disable(_SCISSOR_TEST)
 
-    def copy_to_screen(self, source: int, box: tuple[int, int, int, int]) -> None:
-        """Copy the colours in a box (left, bottom, right, top) of a framebuffer to the same place."""
+    def copy_to_screen(self, source: int, size: tuple[int, int]) -> None:
+        """Copy the colours of a framebuffer, its first row to the top of the window."""
+        width, height = size
         self._bind(_READ_FRAMEBUFFER, source)
         self._bind(_DRAW_FRAMEBUFFER, 0)
         self._disable(_SCISSOR_TEST)
-        self._blit(*box, *box, _COLOR_BUFFER_BIT, _NEAREST)
+        self._blit(0, height, width, 0, 0, 0, width, height, _COLOR_BUFFER_BIT, _NEAREST)
         self._bind(_FRAMEBUFFER, 0)
+
+    def store_as_screens_do(self, texture: int, size: tuple[int, int]) -> None:
+        """Give an RGBA texture storage whose bytes are blue, green, red, alpha."""
+        self._bind_texture(_TEXTURE_2D, texture)
+        # A format without sizes lets the driver follow the order of the bytes that are announced.
+        self._store(_TEXTURE_2D, 0, _RGBA, *size, 0, _BGRA, _UNSIGNED_INT_8_8_8_8_REV, None)
 
     def read_screen(self, width: int, height: int) -> NDArray[np.uint8]:
         """Return the colours of the window, (h, w, 3) uint8, first row on top."""
@@ -353,6 +351,7 @@ class _Screen:
 
 _FRAMEBUFFER, _READ_FRAMEBUFFER, _DRAW_FRAMEBUFFER = 0x8D40, 0x8CA8, 0x8CA9
 _COLOR_BUFFER_BIT, _NEAREST, _SCISSOR_TEST = 0x4000, 0x2600, 0x0C11
+_TEXTURE_2D, _RGBA, _BGRA, _UNSIGNED_INT_8_8_8_8_REV = 0x0DE1, 0x1908, 0x80E1, 0x8367
 _PACK_ALIGNMENT, _RGB, _UNSIGNED_BYTE = 0x0D05, 0x1907, 0x1401
 
 

@@ -9,6 +9,8 @@ from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame
 from facepin.gpu.programs import load_program
 
+Colour = tuple[float, float, float, float]
+
 POOL = (1.47, 1.67)
 """Half axes of the pool of light, in half widths and half heights of the picture."""
 POOL_HEIGHT = 0.13
@@ -22,10 +24,15 @@ class Background:
         self.ctx = ctx
         self._program = load_program(ctx, "background")
         self._triangle = ctx.vertex_array(self._program, [])
-        self._kept = Canvas(ctx, 0)
+        self._kept: Canvas | None = None
         self._keeps: object = None
 
-    def draw(self, canvas: Canvas, sights: Sequence[tuple[Viewport, Camera]]) -> None:
+    def draw(
+        self,
+        canvas: Canvas,
+        sights: Sequence[tuple[Viewport, Camera]],
+        beside: Colour = (0.0, 0.0, 0.0, 0.0),
+    ) -> None:
         """Erase a canvas and draw the wall of every pane.
 
         Parameters
@@ -33,24 +40,29 @@ class Background:
         canvas : Canvas
             Has a size.
         sights : sequence of (viewport, camera)
-            The panes; what is outside of them becomes transparent black.  Of a camera its lens matters here,
-            not where it stands.
+            The panes.  Of a camera its lens matters here, not where it stands.
+        beside : (r, g, b, a)
+            Colour of what is outside of them.
         """
-        framings = [frame(camera, viewport, canvas.size[1]) for viewport, camera in sights]
+        framings = [frame(camera, viewport) for viewport, camera in sights]
         if canvas.samples:
-            self.draw_framed(canvas, framings)
+            self.draw_framed(canvas, framings, beside)
             return
         # Copying a whole picture takes a processor a tenth of a millisecond, drawing it several.
-        keeps = (canvas.size, [(framing.rectangle, framing.half_picture) for framing in framings])
+        keeps = (canvas.size, [(framing.rectangle, framing.half_picture) for framing in framings], beside)
+        if self._kept is None:
+            self._kept = canvas.twin()
         if keeps != self._keeps:
             self._kept.resize(*canvas.size)
-            self.draw_framed(self._kept, framings)
+            self.draw_framed(self._kept, framings, beside)
             self._keeps = keeps
         self._kept.copy_to(canvas)
 
-    def draw_framed(self, canvas: Canvas, framings: Sequence[Framing]) -> None:
+    def draw_framed(
+        self, canvas: Canvas, framings: Sequence[Framing], beside: Colour = (0.0, 0.0, 0.0, 0.0)
+    ) -> None:
         """Draw like `draw`, for framings that may be tiles of larger pictures."""
-        canvas.clear()
+        canvas.clear(beside)
         for framing in framings:
             sx, sy, ox, oy = framing.ray_of_pixel
             kx, ky = 1 / (POOL[0] * framing.half_picture[0]), 1 / (POOL[1] * framing.half_picture[1])
@@ -61,6 +73,7 @@ class Background:
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        self._kept.release()
+        if self._kept is not None:
+            self._kept.release()
         self._triangle.release()
         self._program.release()

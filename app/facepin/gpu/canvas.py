@@ -1,27 +1,42 @@
 """A framebuffer of our own, with as many samples per pixel as wanted."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from facepin.core.camera import Viewport
+TextureMaker = Callable[[tuple[int, int]], moderngl.Texture]
 
 
 class Canvas:
-    """Colour and depth in memory.
+    """Colour and depth in memory, stored with the first row first.
 
-    As large as the window, panes draw into it at their own places and one `resolve` brings all of them to the
-    screen with smooth edges.
+    As large as the window, panes draw into it at their own places and one copy brings all of them to the
+    screen.
     """
 
-    def __init__(self, ctx: moderngl.Context, samples: int = 4) -> None:
-        """Samples per pixel: 0 or 1 for none, otherwise what the machine can do of it."""
+    def __init__(
+        self, ctx: moderngl.Context, samples: int = 4, make_texture: TextureMaker | None = None
+    ) -> None:
+        """Make an empty canvas.
+
+        Parameters
+        ----------
+        ctx : moderngl.Context
+            Where it is.
+        samples : int
+            Per pixel: 0 or 1 for none, otherwise what the machine can do of it.
+        make_texture : callable
+            Makes what holds four channels of colour for a size, such as `Window.texture`, which the screen
+            takes over as it is.
+        """
         self.ctx = ctx
+        self._make_texture = make_texture or (lambda size: ctx.texture(size, 4))
         self.samples = min(samples, int(ctx.max_samples)) if samples > 1 else 0
         self._buffers: _Buffers | None = None
-        self._resolved: moderngl.Framebuffer | None = None
+        self._means: moderngl.Framebuffer | None = None
         self._second: tuple[moderngl.Framebuffer, moderngl.Framebuffer] | None = None
 
     @property
@@ -77,26 +92,37 @@ class Canvas:
         if self._buffers is not None and self.size == size:
             return
         self.release()
-        colour = self.ctx.renderbuffer(size, 4, samples=self.samples)
+        colour = (
+            self.ctx.renderbuffer(size, 4, samples=self.samples) if self.samples else self._make_texture(size)
+        )
         depth = self.ctx.depth_texture(size, samples=self.samples)
         if not self.samples:
             depth.compare_func = ""  # read as a number, not compared
         framebuffer, overlay = self.ctx.framebuffer([colour], depth), self.ctx.framebuffer([colour])
         self._buffers = _Buffers(framebuffer, overlay, depth)
 
-    def clear(self) -> None:
-        """Make the picture transparent black, and far away."""
+    def twin(self) -> "Canvas":
+        """Return a canvas without a size that can be copied to this one as fast as can be."""
+        return Canvas(self.ctx, self.samples, self._make_texture)
+
+    def clear(self, colour: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)) -> None:
+        """Make all of the picture one colour (RGBA, transparent black), and far away."""
         self._use_all_of(self.framebuffer)
-        self.framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
+        self.framebuffer.clear(*colour, depth=1.0)
 
     def copy_to(self, other: "Canvas") -> None:
         """Copy picture and depth to a canvas of the same size and samples."""
         self._copy(self.framebuffer, other.framebuffer)
 
-    def resolve(self, target: moderngl.Framebuffer, part: Viewport | None = None) -> None:
-        """Copy the picture, or a part, to a framebuffer of the same size: pixels are means of samples."""
+    def flat(self) -> moderngl.Framebuffer:
+        """Return the picture with one sample per pixel, each the mean of several if there are."""
+        if not self.samples:
+            return self.overlay
+        if self._means is None:
+            self._means = self.ctx.framebuffer([self._make_texture(self.size)])
         # Not from the one with depth: depth would be copied too, or refused where its format differs.
-        self._copy(self.overlay, target)
+        self._copy(self.overlay, self._means)
+        return self._means
 
     def _copy(self, source: moderngl.Framebuffer, target: moderngl.Framebuffer) -> None:
         self._use_all_of(source)
@@ -105,14 +131,9 @@ class Canvas:
 
     def read(self) -> NDArray[np.uint8]:
         """Return the picture, (h, w, 4) uint8, first row on top."""
-        source = self.framebuffer
-        if self.samples:
-            if self._resolved is None:
-                self._resolved = self.ctx.framebuffer([self.ctx.renderbuffer(source.size, 4)])
-            self.resolve(self._resolved)
-            source = self._resolved
+        source = self.flat()
         data = np.frombuffer(source.read(components=4, alignment=1), np.uint8)
-        return data.reshape(source.height, source.width, 4)[::-1]
+        return data.reshape(source.height, source.width, 4)
 
     @staticmethod
     def _use_all_of(framebuffer: moderngl.Framebuffer) -> None:
@@ -130,9 +151,9 @@ class Canvas:
             leave_framebuffers(self.ctx)
             self._buffers.overlay.release()
             release_framebuffer(self._buffers.framebuffer)
-        if self._resolved is not None:
-            release_framebuffer(self._resolved)
-        self._buffers = self._resolved = self._second = None
+        if self._means is not None:
+            release_framebuffer(self._means)
+        self._buffers = self._means = self._second = None
 
 
 @dataclass(frozen=True)

@@ -8,17 +8,21 @@ import numpy as np
 from facepin.core.arrays import Floats
 from facepin.core.camera import Camera, Viewport
 
+Y_DOWN = np.diag([1.0, -1.0, 1.0, 1.0])
+"""OpenGL counts rows from below.  Turned over, a picture begins with its first row, as windows and files want
+it: without a graphics card, showing it is then a plain copy.  Front sides turn clockwise in it."""
+
 
 @dataclass(frozen=True, eq=False)
 class Framing:
     """A camera, and the rectangle of a framebuffer that its picture (or a tile of it) fills."""
 
     rectangle: tuple[int, int, int, int]
-    """x, y, width, height in pixels, origin bottom left as OpenGL wants it."""
+    """x, y, width, height in pixels, origin top left: canvases are stored with their first row first."""
     to_view: Floats
     """World to camera space, (4, 4)."""
     to_clip: Floats
-    """Camera to clip space, (4, 4)."""
+    """Camera to clip space, (4, 4), where y points down."""
     half_picture: tuple[float, float]
     """Half the width and height of the whole picture at depth 1."""
 
@@ -31,6 +35,11 @@ class Framing:
         oy = (self.to_clip[1, 2] - 1) / self.to_clip[1, 1] - y * sy
         return float(sx), float(sy), float(ox), float(oy)
 
+    @property
+    def pixel_angle(self) -> float:
+        """Height of a pixel at depth 1."""
+        return abs(self.ray_of_pixel[1])
+
     def use(self, framebuffer: moderngl.Framebuffer) -> None:
         """Draw into this rectangle of `framebuffer` from now on, and nowhere else."""
         framebuffer.viewport = self.rectangle
@@ -38,22 +47,22 @@ class Framing:
         framebuffer.use()
 
 
-def frame(camera: Camera, viewport: Viewport, framebuffer_height: int) -> Framing:
-    """Return the framing of a viewport (whole pixels, at least one) in a framebuffer of that height."""
+def frame(camera: Camera, viewport: Viewport) -> Framing:
+    """Return the framing of a viewport (whole pixels, at least one)."""
     left, top = round(viewport.x), round(viewport.y)
     width = max(round(viewport.x + viewport.width) - left, 1)
     height = max(round(viewport.y + viewport.height) - top, 1)
     projection = camera.projection(width / height)
     return Framing(
-        (left, framebuffer_height - top - height, width, height),
+        (left, top, width, height),
         camera.view_matrix(),
-        projection,
+        Y_DOWN @ projection,
         (1 / projection[0, 0], 1 / projection[1, 1]),
     )
 
 
 def tile(whole: Framing, x: int, y: int, width: int, height: int) -> Framing:
-    """Return the framing of a piece of `whole` (origin bottom left), for a framebuffer of that size."""
+    """Return the framing of a piece of `whole`, for a canvas of that size."""
     _, _, full_width, full_height = whole.rectangle
     crop = np.eye(4)
     crop[0, 0], crop[1, 1] = full_width / width, full_height / height

@@ -62,7 +62,7 @@ class GhostLayer:
         for program in (depth, shell):
             program["to_view"] = column_major(framing.to_view)
             program["to_clip"] = column_major(framing.to_clip)
-        shell["pixel_angle"] = framing.ray_of_pixel[1]
+        shell["pixel_angle"] = framing.pixel_angle
         # Only what is nearest of the shell shines, or the head would be full of its own inside.
         framing.use(canvas.second_depth)
         canvas.second_depth.clear(depth=1.0)

@@ -88,7 +88,7 @@ class MarkerLayer:
         scale : float
             Pixels per point: 2 on a HiDPI screen.
         """
-        self.draw_framed(canvas, frame(camera, viewport, canvas.size[1]), markers, scale=scale)
+        self.draw_framed(canvas, frame(camera, viewport), markers, scale=scale)
 
     def draw_framed(self, canvas: Canvas, framing: Framing, markers: Markers, *, scale: float) -> None:
         """Draw like `draw`, for a framing that may be a tile of a larger picture."""
@@ -104,7 +104,7 @@ class MarkerLayer:
         program["to_view"] = column_major(framing.to_view)
         program["to_clip"] = column_major(framing.to_clip)
         program["rectangle"] = framing.rectangle
-        program["pixel_angle"] = framing.ray_of_pixel[1]
+        program["pixel_angle"] = framing.pixel_angle
         program["scale"] = scale
         program["depth_map"] = 0
         canvas.depth.use(0)

@@ -128,11 +128,11 @@ def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
 
 def cull_hidden(ctx: moderngl.Context, run: Run) -> None:
     """Draw with depth from now on, without the side of a run that is never seen."""
+    ctx.front_face = "cw"  # canvases are upside down, see `framing.Y_DOWN`
     if run.hidden is None:
         ctx.enable_only(moderngl.DEPTH_TEST)
     else:
         ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        ctx.front_face = "ccw"
         ctx.cull_face = run.hidden
 
 

@@ -29,29 +29,28 @@ class Motion:
         self._triangles = triangles
         self._weld = weld_map(rig).astype(np.intp)
         self._corners = [self._weld[corner] for corner in triangles.T]
-        self.forget()
+        self.forget(0.0)
 
-    def forget(self) -> None:
-        """Begin anew."""
+    def forget(self, pixel: float) -> None:
+        """Begin anew, for pixels of this size where the face is nearest."""
         self.moving: tuple[Run, ...] = self._runs
         self.still: tuple[Run, ...] = ()
         """Runs of `triangles`, as `moving`; while there are none of these, nothing is sorted."""
         self.triangles: Indices = self._triangles
         """(t, 3), those that move and those that are still apart within each run."""
+        self._pixel = pixel
         self._reference: Points | None = None
         self._moved: Mask = np.zeros(len(self._weld), np.bool_)
         self._free: Mask = np.zeros((len(self._weld), 1), np.bool_)
         self._hopeless = False
 
-    def follow(self, positions: Points, pixel: float) -> bool:
+    def follow(self, positions: Points) -> bool:
         """Go on to another pose.
 
         Parameters
         ----------
         positions : (n, 3) float32
             Not changed afterwards.
-        pixel : float
-            Size of a pixel where the face is nearest.
 
         Returns
         -------
@@ -63,9 +62,9 @@ class Motion:
         if self._hopeless or positions is self._reference:
             return False
         moves = np.abs(positions - self._reference)
-        if self.still and not ((moves > VISIBLE * pixel) & ~self._free).any():
+        if self.still and not ((moves > VISIBLE * self._pixel) & ~self._free).any():
             return False
-        self._moved |= (moves > SLIGHT * VISIBLE * pixel).any(axis=1)
+        self._moved |= (moves > SLIGHT * VISIBLE * self._pixel).any(axis=1)
         self._sort()
         self._reference = positions
         return True

@@ -217,8 +217,8 @@ def smoothed(values: Points, rig: Rig, rounds: int = 2) -> Points:
 
 
 def _axes(direction: Floats) -> Floats:
-    """Right, up and away (3, 3) of a view against `direction`; depth grows away from it."""
+    """Right, down and away (3, 3) of a view against `direction`; depth grows away from it."""
     up = np.array([0.0, 1.0, 0.0]) if abs(direction[1]) < 0.9 else np.array([1.0, 0.0, 0.0])
     right = np.cross(up, direction)
     right /= np.linalg.norm(right)
-    return np.stack([right, np.cross(direction, right), -direction])
+    return np.stack([right, np.cross(right, direction), -direction])

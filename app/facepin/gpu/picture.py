@@ -143,7 +143,7 @@ def draw_picture(
     """
     factor = supersampling
     width, height = size
-    whole = frame(camera, Viewport(0, 0, width * factor, height * factor), height * factor)
+    whole = frame(camera, Viewport(0, 0, width * factor, height * factor))
     step = max(TILE // factor, 1)
     picture = np.zeros((height, width, 4), np.uint8)
     canvas = Canvas(mesh.scene.ctx, samples)
@@ -160,7 +160,7 @@ def draw_picture(
                 draw_pane(canvas, framing, mesh, overlays, fine=True, scale=scale * factor)
                 if overlay is not None:
                     overlay(canvas, framing)
-                picture[height - y - h : height - y, x : x + w] = _averaged(canvas.read(), factor)
+                picture[y : y + h, x : x + w] = _averaged(canvas.read(), factor)
     finally:
         canvas.release()
     return _straight_alpha(picture) if transparent else picture

@@ -118,8 +118,15 @@ class PaneMesh:
         self._uploaded = positions, normals
         return True
 
-    def follow(self, framing: Framing) -> bool:
-        """Sort the triangles of the pose that was taken over into moving and still ones, as seen here.
+    def look(self, framing: Framing) -> None:
+        """Begin anew to tell what moves from what is still, as seen here."""
+        assert self._uploaded is not None, "a pose comes first"
+        positions, _ = self._uploaded
+        depths = positions @ -framing.to_view[2, :3] - framing.to_view[2, 3]
+        self.motion.forget(framing.pixel_angle * max(float(depths.min()), 0.0))
+
+    def follow(self) -> bool:
+        """Sort the triangles of the pose that was taken over into moving and still ones; `look` comes first.
 
         Returns
         -------
@@ -128,8 +135,7 @@ class PaneMesh:
         """
         assert self._uploaded is not None, "a pose comes first"
         positions, _ = self._uploaded
-        depths = positions @ -framing.to_view[2, :3] - framing.to_view[2, 3]
-        anew = self.motion.follow(positions, framing.ray_of_pixel[1] * max(float(depths.min()), 0.0))
+        anew = self.motion.follow(positions)
         if anew and self.motion.still:
             if self._sorted is None:
                 indices = self.scene.ctx.buffer(reserve=self.scene.indices.size, dynamic=True)
@@ -175,7 +181,7 @@ class PaneMesh:
         shading : Shading
             Anything but "heat", which `HeatLayer` draws.
         """
-        framing = frame(camera, viewport, canvas.size[1])
+        framing = frame(camera, viewport)
         self.draw_framed(canvas, framing, fine=fine, shading=shading)
 
     def draw_framed(

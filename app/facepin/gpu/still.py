@@ -7,6 +7,8 @@ with a copy of wall and still triangles, with their depth, and only what moves i
 from collections.abc import Sequence
 
 from facepin.core.camera import Camera, Viewport
+from facepin.core.shading import Shading
+from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
 from facepin.gpu.scene import PaneMesh, Scene
@@ -17,11 +19,15 @@ class StillLayer:
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        self._kept = Canvas(scene.ctx, 0)
+        self._kept: Canvas | None = None
         self._sight: object = None
 
     def draw(
-        self, canvas: Canvas, sights: Sequence[tuple[Viewport, Camera]], meshes: Sequence[PaneMesh | None]
+        self,
+        canvas: Canvas,
+        sights: Sequence[tuple[Viewport, Camera]],
+        shown: Sequence[tuple[PaneMesh, Shading] | None],
+        beside: Colour = (0.0, 0.0, 0.0, 0.0),
     ) -> None:
         """Erase a canvas and draw the wall and what is still of every face, as `fine=False` draws it.
 
@@ -33,26 +39,30 @@ class StillLayer:
             Has a size, and no samples.
         sights : sequence of (viewport, camera)
             The panes.
-        meshes : sequence of PaneMesh or None
+        shown : sequence of (PaneMesh, Shading) or None
             Their faces; None where something else is drawn instead.
+        beside : (r, g, b, a)
+            Colour of what is outside of the panes.
         """
-        framings = [frame(camera, viewport, canvas.size[1]) for viewport, camera in sights]
-        faces = [(mesh, framing) for mesh, framing in zip(meshes, framings, strict=True) if mesh is not None]
-        sight = (canvas.size, tuple(sights), tuple(meshes), self._scene.refined)
+        framings = [frame(camera, viewport) for viewport, camera in sights]
+        faces = [(*face, framing) for face, framing in zip(shown, framings, strict=True) if face is not None]
+        sight = (canvas.size, tuple(sights), tuple(shown), beside, self._scene.refined)
         if sight != self._sight:
             self.forget()
-            for mesh, _ in faces:
-                mesh.motion.forget()
+            for mesh, _, framing in faces:
+                mesh.look(framing)
             self._sight = sight
-        sorted_anew = [mesh.follow(framing) for mesh, framing in faces]
-        if not any(mesh.motion.still for mesh, _ in faces):
-            self._scene.background.draw(canvas, sights)
+        sorted_anew = [mesh.follow() for mesh, _, _ in faces]
+        if not any(mesh.motion.still for mesh, _, _ in faces):
+            self._scene.background.draw(canvas, sights, beside)
             return
+        if self._kept is None:
+            self._kept = canvas.twin()
         if any(sorted_anew):
             self._kept.resize(*canvas.size)
-            self._scene.background.draw(self._kept, sights)
-            for mesh, framing in faces:
-                mesh.draw_framed(self._kept, framing, fine=False, part="still")
+            self._scene.background.draw(self._kept, sights, beside)
+            for mesh, shading, framing in faces:
+                mesh.draw_framed(self._kept, framing, fine=False, shading=shading, part="still")
         self._kept.copy_to(canvas)
 
     def forget(self) -> None:
@@ -61,4 +71,5 @@ class StillLayer:
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        self._kept.release()
+        if self._kept is not None:
+            self._kept.release()

@@ -63,7 +63,7 @@ class WireLayer:
         program = self._look.program
         program["to_view"] = column_major(framing.to_view)
         program["to_clip"] = column_major(framing.to_clip)
-        program["pixel_angle"] = framing.ray_of_pixel[1]
+        program["pixel_angle"] = framing.pixel_angle
         program["scale"] = scale
         program["plain"] = not coloured
         framing.use(canvas.framebuffer)

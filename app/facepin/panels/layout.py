@@ -28,14 +28,13 @@ def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
     space = imgui.get_id("panels")
     if reset or imgui.internal.dock_builder_get_node(space) is None:
         _build(space, scale)
-    # Its background would be painted under the panels' own, which cover it: without a GPU that is felt.
-    imgui.push_style_color(imgui.Col_.window_bg, imgui.ImVec4(0, 0, 0, 0))
+    push_no_ground()
     imgui.dock_space_over_viewport(
         space,
         imgui.get_main_viewport(),
         imgui.DockNodeFlags_.passthru_central_node | imgui.DockNodeFlags_.no_docking_over_central_node,
     )
-    imgui.pop_style_color()
+    pop_no_ground()
     node = imgui.internal.dock_builder_get_central_node(space)
     return Viewport(
         node.pos.x * pixel_ratio,
@@ -45,11 +44,25 @@ def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
     )
 
 
+def push_no_ground() -> None:
+    """Leave out the grounds of windows and menu bars until `pop_no_ground`.
+
+    The picture has their colour there already.  A GPU would not care; where a processor draws, grounds that
+    are blended take longer than all that is written on them.
+    """
+    for index in (imgui.Col_.window_bg, imgui.Col_.menu_bar_bg):
+        imgui.push_style_color(index, imgui.ImVec4(0, 0, 0, 0))
+
+
+def pop_no_ground() -> None:
+    """End what `push_no_ground` began."""
+    imgui.pop_style_color(2)
+
+
 def without_background(name: str) -> None:
     """Leave out the background of the next window, `name`, where it is docked beside the picture.
 
-    The main loop has filled that part of the frame already.  A GPU would not care; where a processor draws,
-    imgui's blended background takes longer than all it writes on it.
+    See `push_no_ground`.
     """
     window = imgui.internal.find_window_by_name(name)
     if window is not None and window.dock_node is not None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.pose import Freedom, Pin
+from facepin.panels import layout
 from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import (
     AddPane,
@@ -47,7 +48,10 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     redo = session.redo_label if session else None
     pins = len(session.pose.pins) if session else 0
     asked: Request | None = None
-    if not imgui.begin_main_menu_bar():
+    layout.push_no_ground()
+    shown = imgui.begin_main_menu_bar()
+    layout.pop_no_ground()
+    if not shown:
         return None
     if imgui.begin_menu("File"):
         close_on_escape()

@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.core.rig import Rig
+from facepin.panels import layout
 from facepin.panels.requests import CancelLoading
 from facepin.panels.theme import ACCENT, TEXT, WARNING, packed
 
@@ -18,6 +19,7 @@ def status_line(
     flags = (
         imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_docking
     )
+    layout.push_no_ground()
     imgui.push_style_var(
         imgui.StyleVar_.window_padding,
         imgui.ImVec2(imgui.get_style().window_padding.x, imgui.get_style().window_padding.y * 0.4),
@@ -26,6 +28,7 @@ def status_line(
         "##status", imgui.get_main_viewport(), imgui.Dir.down, height, flags
     )
     imgui.pop_style_var()
+    layout.pop_no_ground()
     if shown:
         imgui.align_text_to_frame_padding()
         if rig is not None:

@@ -16,7 +16,7 @@ from facepin.core.events import (
     Scrolled,
 )
 from facepin.desk import Desk
-from facepin.panels.requests import Command, OpenPath, Request, command_for
+from facepin.panels.requests import PICTURES, Command, OpenPath, Request, command_for
 from facepin.session.drag import Sight, pin_at
 from facepin.session.edit import Edit
 from facepin.session.navigation import Navigator
@@ -73,7 +73,7 @@ class Router:
                 command = command_for(event)
                 in_hand = desk.tool.holding or self.navigator.holding
                 # What a gesture began with must not change under it; a picture of it may be taken.
-                if command is not None and (not in_hand or command is Command.SCREENSHOT):
+                if command is not None and (not in_hand or command in PICTURES):
                     asked.append(command)
                 elif desk.stage is not None:
                     if event.key == "escape" and desk.tool.holding:

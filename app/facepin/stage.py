@@ -14,10 +14,11 @@ from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
-from facepin.gpu.framing import frame
-from facepin.gpu.markers import MarkerLayer, Markers, MarkerState
+from facepin.gpu.framing import Framing, frame
+from facepin.gpu.markers import MarkerLayer, Markers, pin_markers
 from facepin.gpu.materials import material
 from facepin.gpu.pane import Overlays, draw_pane
+from facepin.gpu.picture import Image, draw_picture
 from facepin.gpu.scene import PaneMesh, Part, Scene
 from facepin.gpu.still import StillLayer
 from facepin.panels.view import Ghost, PaneView
@@ -55,6 +56,8 @@ class Stage:
 
     def __init__(self, ctx: moderngl.Context, session: Session) -> None:
         self.session = session
+        self.scale = 1.0
+        """Pixels per pixel of a 1x screen, as last drawn."""
         self.seconds = 0.0
         """Time of the last deformation with normals and upload, all panes."""
         self._scene = Scene(ctx, session.rig)
@@ -117,8 +120,51 @@ class Stage:
         return shown.appraised[2]
 
     def mesh(self, pane: int) -> PaneMesh:
-        """The mesh of a pane, for a picture of it."""
+        """The mesh of a pane."""
         return self._shown[pane].mesh
+
+    def picture(
+        self,
+        pane: int,
+        view: PaneView,
+        camera: Camera,
+        size: tuple[int, int],
+        *,
+        tool: DragTool | None = None,
+        transparent: bool = False,
+        supersampling: int = 1,
+    ) -> Image:
+        """Return what a pane shows, (h, w, 4) uint8, as sharp as it can be and with its shading refined.
+
+        Parameters
+        ----------
+        pane, view, camera
+            As for `draw`.
+        size : (int, int)
+            Width and height in pixels, any.
+        tool : DragTool
+            Whose pins are drawn too; no pins without one.
+        transparent, supersampling
+            See `draw_picture`.
+        """
+        while not self.refined:
+            self.refine()
+
+        def pins(canvas: Canvas, framing: Framing, scale: float) -> None:
+            if tool is not None:
+                markers = _markers(self.session.panes[pane].pose, self.positions(pane), tool)
+                self._markers.draw_framed(canvas, framing, markers, scale=scale)
+
+        return draw_picture(
+            self.mesh(pane),
+            camera,
+            size,
+            transparent=transparent,
+            supersampling=supersampling,
+            overlays=self.overlays(pane, view),
+            scale=self.scale,
+            overlay=pins,
+        )
 
     def overlays(self, pane: int, view: PaneView) -> Overlays:
         """Return what `view` shows over the face of a pane; measures and uploads only what it asks for."""
@@ -174,6 +220,7 @@ class Stage:
         beside : (r, g, b, a)
             Colour of what is outside of the panes.
         """
+        self.scale = scale
         if fine or canvas.samples:
             self._still.forget()
             self._scene.background.draw(canvas, sights, beside)
@@ -204,18 +251,4 @@ class Stage:
 
 
 def _markers(pose: Pose, positions: Points, tool: DragTool) -> Markers:
-    states = []
-    for pin in pose.pins:
-        if pin.vertex == tool.held:
-            states.append(MarkerState.HELD)
-        elif pin.vertex in tool.selected:
-            states.append(MarkerState.SELECTED)
-        elif pin.vertex == tool.hovered:
-            states.append(MarkerState.HOVERED)
-        else:
-            states.append(MarkerState.NORMAL)
-    return Markers(
-        positions[[pin.vertex for pin in pose.pins]],
-        np.array([pin.goal for pin in pose.pins], np.float32).reshape(-1, 3),
-        np.array(states, np.uint8),
-    )
+    return pin_markers(pose, positions, held=tool.held, hovered=tool.hovered, selected=tool.selected)

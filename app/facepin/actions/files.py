@@ -41,9 +41,10 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT if session is not None:
             desk.say("")
             _ask_for(request, desk, session)
-        case Command.SCREENSHOT if desk.stage is not None and session is not None:
+        case Command.SCREENSHOT | Command.SCREENSHOT_PINS if desk.stage is not None and session is not None:
             shown = desk.view.panes[session.active]
-            path = save_picture(desk.stage, shown, desk.camera, desk.viewport, desk.pictures)
+            tool = desk.tool if request is Command.SCREENSHOT_PINS else None
+            path = save_picture(desk.stage, shown, desk.camera, desk.viewport, desk.pictures, tool)
             desk.say(f"Saved {path}")
         case _:
             return False

@@ -1,5 +1,6 @@
 """Pins as crisp markers over the face."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
+from facepin.core.pose import Pose
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.programs import load_program
@@ -54,6 +56,30 @@ class Markers:
     """(p, 3) float32, where they should be."""
     states: NDArray[np.uint8]
     """(p,) values of `MarkerState`."""
+
+
+def pin_markers(
+    pose: Pose,
+    positions: Points,
+    *,
+    held: int | None = None,
+    hovered: int | None = None,
+    selected: Collection[int] = (),
+) -> Markers:
+    """Return markers for the pins of a pose on the vertices (n, 3) as posed; hands are named by vertex."""
+
+    def state(vertex: int) -> MarkerState:
+        if vertex == held:
+            return MarkerState.HELD
+        if vertex in selected:
+            return MarkerState.SELECTED
+        return MarkerState.HOVERED if vertex == hovered else MarkerState.NORMAL
+
+    return Markers(
+        positions[[pin.vertex for pin in pose.pins]],
+        np.array([pin.goal for pin in pose.pins], np.float32).reshape(-1, 3),
+        np.array([state(pin.vertex) for pin in pose.pins], np.uint8),
+    )
 
 
 class MarkerLayer:

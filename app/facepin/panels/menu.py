@@ -64,8 +64,11 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
             imgui.end_menu()
         asked = _item(Command.OPEN_BUILTIN) or asked
         imgui.separator()
-        for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT, Command.SCREENSHOT):
+        for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT):
             asked = _item(command) or asked
+        imgui.separator()
+        for command in (Command.SCREENSHOT, Command.SCREENSHOT_PINS):
+            asked = _item(command, session is not None) or asked
         imgui.separator()
         asked = _item(Command.QUIT) or asked
         imgui.end_menu()

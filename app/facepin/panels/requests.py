@@ -20,6 +20,7 @@ class Command(Enum):
     SAVE_POSE = "Save pose…", ("Ctrl+S",)
     EXPORT = "Export model…", ("Ctrl+E",)
     SCREENSHOT = "Save picture", ("F12",)
+    SCREENSHOT_PINS = "Save picture with pins", ("Shift+F12",)
     QUIT = "Quit", ("Ctrl+Q",)
     UNDO = "Undo", ("Ctrl+Z",)
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y")
@@ -52,6 +53,9 @@ class Command(Enum):
         """Keys that ask for it; the first one stands in the menu."""
         return tuple(self.value[1])
 
+
+PICTURES = (Command.SCREENSHOT, Command.SCREENSHOT_PINS)
+"""Those that change nothing."""
 
 VIEW_COMMANDS: dict[Command, View] = {
     Command.FRONT: "front",

@@ -11,6 +11,11 @@ uniform vec4 paint;          // rgb multiplies the vertex colour, of which there
 in vec3 world_normal;
 in vec4 base;
 in vec3 opening;
+#ifdef TEXTURED
+uniform sampler2D colours;
+uniform float cutout;   // alpha below which there is nothing
+in vec2 place_in_texture;
+#endif
 
 out vec4 pixel;
 
@@ -38,7 +43,14 @@ vec3 mirrored_lamps(vec3 n, vec3 to_eye, vec4 seen)
 // The colour of the surface here; grey where only its lightness counts.
 vec3 painted()
 {
-    vec3 own = paint.a < 0.0 ? vec3(dot(base.rgb, vec3(0.21, 0.72, 0.07))) : base.rgb;
+    vec3 own = base.rgb;
+#ifdef TEXTURED
+    vec4 texel = texture(colours, place_in_texture);
+    if (texel.a < cutout)
+        discard;
+    own *= texel.rgb;
+#endif
+    own = paint.a < 0.0 ? vec3(dot(own, vec3(0.21, 0.72, 0.07))) : own;
     return mix(vec3(1.0), own, abs(paint.a)) * paint.rgb;
 }
 

@@ -11,11 +11,18 @@ in vec3 towards;   // where it opens to
 out vec3 world_normal;
 out vec4 base;
 out vec3 opening;
+#ifdef TEXTURED
+in vec2 place;
+out vec2 place_in_texture;
+#endif
 
 void main()
 {
     world_normal = normalize(normal);
     base = albedo;
     opening = towards;
+#ifdef TEXTURED
+    place_in_texture = place;
+#endif
     gl_Position = to_picture * vec4(position, 1.0);
 }

@@ -5,11 +5,11 @@ uniform mat4x3 lamps;     // unit vectors to the key, the fill, the rim and the 
 uniform vec3 scatter;     // how far light spreads under the surface before it comes out, colour by colour
 uniform vec3 gather;      // 1 / (1 + scatter)
 uniform float roughness;
+uniform float reflects;   // share of the light that is reflected straight ahead
 
 const vec3 KEY_LIGHT = vec3(1.50, 1.39, 1.27), FILL_LIGHT = vec3(0.17, 0.21, 0.28);
 const vec3 RIM_LIGHT = vec3(0.62, 0.71, 0.87), BACK_LIGHT = vec3(0.42, 0.36, 0.31);
 const vec3 SKY_LIGHT = vec3(0.19, 0.21, 0.25), GROUND_LIGHT = vec3(0.105, 0.090, 0.080);
-const float REFLECTED = 0.04;   // straight ahead, by everything that is not metal
 
 // How much of each lamp a point sees.  `open`: share of the room; `towards`: where it opens to.
 vec4 lamps_seen(float open, vec3 towards)
@@ -50,9 +50,9 @@ vec3 studio(vec3 n, vec3 to_eye, vec3 albedo, float open, vec3 towards)
     float a = roughness * roughness, nv = max(dot(n, to_eye), 0.0);
     vec2 near = max(1.0 + (to_eye * lamps).xy, 0.02), h = nv + nl.xy, d = (a * a - 1.0) * h * h + 2.0 * near;
     vec2 glint = max(nl.xy, 0.0) * seen.xy * (8.0 * a * a / (4.0 * a + 2.0)) * near / (d * d);
-    vec3 shine = REFLECTED * (KEY_LIGHT * glint.x + FILL_LIGHT * glint.y);
+    vec3 shine = reflects * (KEY_LIGHT * glint.x + FILL_LIGHT * glint.y);
     float edge = 1.0 - nv, edge2 = edge * edge;
-    float fresnel = REFLECTED + (1.0 - REFLECTED) * edge2 * edge2 * edge;
+    float fresnel = reflects + (1.0 - reflects) * edge2 * edge2 * edge;
     shine += around * (fresnel * (1.0 - 0.75 * roughness) * open);
     return albedo * diffuse + shine;
 }

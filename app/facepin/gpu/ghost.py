@@ -75,7 +75,7 @@ class GhostLayer:
     def _render(self, array: moderngl.VertexArray, depth_func: str, *flags: int) -> None:
         ctx = self._scene.ctx
         ctx.depth_func = depth_func
-        for run in self._scene.runs:
+        for run in self._scene.solid:
             cull_hidden(ctx, run)
             for flag in flags:
                 ctx.enable(flag)

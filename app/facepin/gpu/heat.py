@@ -59,7 +59,7 @@ class HeatLayer:
         self._look.colours.use(0)
         framing.use(canvas.framebuffer)
         self._scene.ctx.depth_func = "<"
-        for run in self._scene.runs:
+        for run in self._scene.solid:
             cull_hidden(self._scene.ctx, run)
             self._array.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
 

@@ -19,7 +19,7 @@ from facepin.gpu.framing import column_major
 from facepin.gpu.materials import Run, cull_hidden
 from facepin.gpu.programs import load_program
 
-DIRECTIONS, OPENED_DIRECTIONS = 80, 20
+DIRECTIONS, OPENED_DIRECTIONS = 60, 16
 """Views of the neutral, and of the open mouth."""
 RESOLUTION = 256
 """Width and height of a depth map."""

@@ -33,15 +33,19 @@ class Scene:
         self.triangles = order.triangles
         """(t, 3) int32, those of the rig in the order of `indices`."""
         self.runs = material_runs(rig, order.runs)
+        self.solid = tuple(run for run in self.runs if run.cutout is None)
+        """Those that are not cut out of cards by a texture."""
         self.indices = ctx.buffer(order.triangles)
         self._albedo_values = vertex_albedo(rig)
         self.albedo = ctx.buffer(self._albedo_values)
         self.towards = ctx.buffer(np.zeros((rig.vertex_count, 4), np.float16))
+        places = rig.texture_places
+        self.places = None if places is None else ctx.buffer(np.ascontiguousarray(places))
         self.shaders = Shaders(ctx)
         self.background = Background(ctx)
         self.kept = Kept()
         """What overlays share."""
-        self._openness: Openness | None = Openness(ctx, rig, order, self.runs, self.indices)
+        self._openness: Openness | None = Openness(ctx, rig, order, self.solid, self.indices)
 
     @property
     def refined(self) -> bool:
@@ -71,8 +75,10 @@ class Scene:
         """Give the graphics memory back."""
         if self._openness is not None:
             self._openness.release()
-        for item in (self.indices, self.albedo, self.towards, self.shaders, self.background, self.kept):
-            item.release()
+        buffers = (self.indices, self.albedo, self.towards, self.places)
+        for item in (*buffers, self.shaders, self.background, self.kept):
+            if item is not None:
+                item.release()
 
 
 class PaneMesh:
@@ -212,6 +218,8 @@ class PaneMesh:
             runs = self.motion.moving if part == "moving" else self.motion.still
             _, arrays = self._sorted
         for run in runs:
+            if shading == "normals" and run.cutout is not None:
+                continue
             name = shaders.use(run, shading, fine=fine)
             array = arrays.of(name)
             # At a vertex it is not known which side is seen, so of sheets each side is drawn by itself.
@@ -243,6 +251,8 @@ class _Arrays:
             (scene.albedo, "4f2", "albedo"),
             (scene.towards, "3f2 1x2", "towards"),
         ]
+        if scene.places is not None:
+            self._content.append((scene.places, "2f", "place"))
         self._made: dict[ProgramName, moderngl.VertexArray] = {}
 
     def of(self, name: ProgramName) -> moderngl.VertexArray:

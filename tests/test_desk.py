@@ -1,5 +1,6 @@
 """What the desk does with requests, driven through the whole program."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -106,3 +107,13 @@ def test_a_rig_opens_even_if_its_first_pose_does_not() -> None:
         assert not app.session.pose.weights.any()
         assert app.desk.is_error
         assert app.desk.message == "pose.json: no such file"
+
+
+def test_a_solver_is_found_again_with_its_settings() -> None:
+    with running(solver="tikhonov") as app:
+        choice = app.session.pane.choice
+        changed = replace(choice, settings=replace(choice.settings, alpha=0.5))
+        for request in (UseSolver(0, changed), UseSolver(0, choose("transpose"))):
+            app.ask(request)
+            app.step(PointerMoved(5, 5), frames=2)
+        assert app.desk.view.panes[0].choices["tikhonov"] == changed

@@ -37,3 +37,13 @@ def test_a_native_dialog_can_be_given_up_without_waiting_for_its_answer(
     dialog.close()
     del dialog
     assert time.monotonic() - began < 30  # not until the answer
+
+
+def test_a_typed_path_that_leads_nowhere_can_be_mended(tmp_path: Path) -> None:
+    dialog = FileDialog("open file", "Open", tmp_path, (), use_native=False)
+    dialog._take(tmp_path / "face.glb")
+    assert not dialog.finished
+    assert "face.glb" in dialog._remark
+    (tmp_path / "face.glb").touch()
+    dialog._take(tmp_path / "face.glb")
+    assert dialog.path == tmp_path / "face.glb"

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.panels.legend import heat_legend
-from facepin.panels.theme import apply_theme
+from facepin.panels.theme import THEMES, apply_theme
 
 
 @pytest.fixture
@@ -18,7 +18,7 @@ def frame() -> Iterator[None]:
     io.set_ini_filename(None)
     io.display_size = imgui.ImVec2(800, 600)
     io.backend_flags |= imgui.BackendFlags_.renderer_has_textures
-    apply_theme(1.0)
+    apply_theme(THEMES["dark"], 1.0)
     imgui.new_frame()
     yield
     imgui.end_frame()

@@ -26,11 +26,16 @@ def screen() -> Iterator[str]:
         return
     if not (shutil.which("Xvfb") and shutil.which("xdotool")):
         pytest.skip("Xvfb and xdotool are needed to try the real window")
+    read, write = os.pipe()
+    # One that resets itself when the last window is gone may refuse the next.
     server = subprocess.Popen(
-        ["Xvfb", ":93", "-screen", "0", "1920x1080x24", "-nolisten", "tcp"], stderr=subprocess.DEVNULL
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1920x1080x24", "-noreset", "-nolisten", "tcp"],
+        pass_fds=[write],
+        stderr=subprocess.DEVNULL,
     )
-    time.sleep(1)
-    yield ":93"
+    os.close(write)
+    with os.fdopen(read) as number:
+        yield f":{number.readline().strip()}"
     server.terminate()
     server.wait()
 

@@ -91,6 +91,11 @@ class Desk:
         """How panes were looked at, by their numbers."""
 
     @property
+    def graphics(self) -> str:
+        """The graphics driver, in words."""
+        return f"{self._ctx.info['GL_RENDERER']}, OpenGL {self._ctx.info['GL_VERSION']}"
+
+    @property
     def session(self) -> Session | None:
         """The open session, if any."""
         return self.stage.session if self.stage else None

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from time import perf_counter
 
 from imgui_bundle import imgui
 
@@ -9,18 +10,23 @@ from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.desk import Desk
 from facepin.panels import layout
+from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
+from facepin.panels.guide import Hand, draw_guide
+from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
 from facepin.panels.menu import menu_bar, pin_menu
+from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.requests import Request
 from facepin.panels.solver import solver_panel
-from facepin.panels.status import hint, loading_card, status_line
-from facepin.panels.theme import pane_colours
+from facepin.panels.status import loading_card, status_line
+from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.panels.weights import weights_panel
+from facepin.session.session import Session
 
 
-def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
+def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> list[Request]:
     """Draw menu bar and status line, and what floats over everything.
 
     Parameters
@@ -31,21 +37,29 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
         Rigs opened lately.
     seconds : float
         Time of the last frame.
+    scale : float
+        imgui units per pixel of a 1x screen.
     """
-    session = desk.session
-    asked = [menu_bar(desk.view, recent, session)]
+    session, view = desk.session, desk.view
+    asked: list[Request | None] = [menu_bar(desk.view, recent, session)]
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
         timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
-    status_line(rig, timing, desk.message, is_error=desk.is_error, warnings=rig.warnings if rig else ())
+    warnings = rig.warnings if rig else ()
+    status_line(rig, timing, desk.message, view.theme, is_error=desk.is_error, warnings=warnings)
     if desk.loading is not None and desk.loading.is_long:
         asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
     if desk.dialog is not None:
         desk.dialog.draw()
     if session is not None:
         asked.append(_pin_popup(desk, session.pose))
+    asked.append(palette(view, session, recent, scale))
+    if view.keyboard:
+        view.keyboard = keyboard_map(view.habit, view.theme, scale)
+    if view.about:
+        view.about = about_window(desk.graphics, scale)
     return [request for request in asked if request is not None]
 
 
@@ -59,20 +73,29 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     scale : float
         imgui units per pixel of a 1x screen.
     """
-    session = desk.session
+    session, theme = desk.session, desk.view.theme
     request = edit = None
     layout.without_background(layout.SOLVER)
     if imgui.begin(layout.SOLVER)[0] and session is not None:
-        request = solver_panel(session.rig, session.pane, session.active, desk.view.panes[session.active])
+        request = solver_panel(
+            session.rig,
+            session.control,
+            session.pane,
+            session.active,
+            desk.view.panes[session.active],
+            theme,
+        )
     imgui.end()
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
         edit = weights_panel(
             session.rig,
+            session.control,
             session.panes,
             session.active,
             desk.view.weights,
             scale,
+            theme,
             in_gesture=session.in_gesture,
         )
     imgui.end()
@@ -80,7 +103,9 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         desk.apply(edit)
     chart: Request | None = None
     if desk.view.chart and session is not None:
-        desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
+        desk.view.chart, chart = chart_window(
+            session.rig, session.panes, session.work.reference, scale, theme
+        )
     return [asked for asked in (request, chart) if asked is not None]
 
 
@@ -93,7 +118,8 @@ def over_picture(
         return []
     asked: list[Request] = []
     if len(viewports) > 1:
-        colours = pane_colours([pane.choice.kind.key for pane in session.panes])
+        _seams(viewport, viewports, pixel_ratio, scale)
+        colours = pane_colours(PICTURE, [pane.choice.kind.key for pane in session.panes])
         for at, (pane, place) in enumerate(zip(session.panes, viewports, strict=False)):
             asked += pane_title(
                 at,
@@ -103,6 +129,7 @@ def over_picture(
                 place,
                 pixel_ratio,
                 scale,
+                habit=desk.view.habit,
                 colour=colours[at],
                 active=at == session.active,
                 has_reference=session.work.reference is not None,
@@ -110,9 +137,43 @@ def over_picture(
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.shading == "heat":
             heat_legend(session.rig.height, place, pixel_ratio, scale)
-    if not session.pose.pins and not session.pose.weights.any():
-        hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
+    _first_steps(desk, session, viewport, pixel_ratio, scale)
     return asked
+
+
+def _seams(viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float) -> None:
+    """Draw the gaps between panes as dark as what is beside them, whatever the theme."""
+
+    def corner(x: float, y: float) -> imgui.ImVec2:
+        return imgui.ImVec2(x / pixel_ratio, y / pixel_ratio)
+
+    draw = imgui.get_background_draw_list()
+    right, bottom = viewport.x + viewport.width, viewport.y + viewport.height
+    draw.push_clip_rect(corner(viewport.x, viewport.y), corner(right, bottom), False)
+    for at in viewports:
+        half = scale * pixel_ratio
+        upper = corner(at.x - half, at.y - half)
+        lower = corner(at.x + at.width + half, at.y + at.height + half)
+        draw.add_rect(upper, lower, packed(PICTURE.bar), 0.0, thickness=2 * scale)
+    draw.pop_clip_rect()
+
+
+def _first_steps(desk: Desk, session: Session, viewport: Viewport, pixel_ratio: float, scale: float) -> None:
+    """Lead a newcomer on, until the first steps are done."""
+    view = desk.view
+    if view.guide.over:
+        return
+    hand = Hand(
+        pins=bool(session.pose.pins),
+        posed=bool(session.pose.weights.any()),
+        pin_menu=view.pin_menu is not None,
+        undone=session.redo_label is not None,
+        searched=view.palette is not None or view.keyboard,
+        work=session.committed,
+    )
+    now = perf_counter()
+    view.guide.watch(hand, now)
+    draw_guide(view.guide, now, view.habit, viewport, pixel_ratio, scale)
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:

@@ -14,15 +14,16 @@ from facepin.actions import carry_out
 from facepin.core.camera import Viewport
 from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
+from facepin.core.quality import Step, step
 from facepin.core.rig import Rig
 from facepin.desk import ChartWriter, Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
-from facepin.gpu.canvas import Canvas
+from facepin.gpu.canvas import Canvases
 from facepin.options import BUILTIN
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Command
-from facepin.panels.theme import PANEL, apply_theme
+from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.resources import resource
 from facepin.routing import Router
@@ -38,6 +39,8 @@ SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
 HOVER_DELAY = 0.2
 """Seconds after the last event when imgui is given another look: it explains what the mouse rests on."""
+ICON_SIZES = (16, 32, 48, 256)
+"""Pixels per side of the icon, for whoever shows it."""
 PANE_GAP = 2.0
 """Pixels between panes at 1x scale."""
 
@@ -80,8 +83,9 @@ class Frame:
 
 def run(window: Window, start: Start) -> None:
     """Show the window until the user closes it."""
-    for _ in frames(window, start):
-        pass
+    for number, _ in enumerate(frames(window, start)):
+        if number == 1:  # what the first picture can do without comes after it
+            window.set_icons([resource("assets", f"icon/facepin-{size}.png") for size in ICON_SIZES])
 
 
 def frames(window: Window, start: Start) -> Iterator[Frame]:
@@ -90,7 +94,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     However it ends, a pose that nobody saved is kept, and the next start says where.
     """
     view = View()
-    rough, smooth = Canvas(window.ctx, 0, window.texture), Canvas(window.ctx, 4, window.texture)
+    canvases = Canvases(window.ctx, window.texture)
     desk = Desk(
         window.ctx,
         view,
@@ -101,23 +105,26 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         chart_writer=start.chart_writer,
     )
     try:
-        yield from _loop(window, start, desk, rough, smooth)
+        yield from _loop(window, start, desk, canvases)
     finally:
         kept = desk.keep_unsaved()
         if kept is not None and start.settings_folder is not None:
             file = start.settings_folder / "preferences.json"
             write_preferences(file, replace(read_preferences(file)[0], kept=str(kept)))
         desk.release()
-        rough.release()
-        smooth.release()
+        canvases.release()
 
 
-def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canvas) -> Iterator[Frame]:
+def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Iterator[Frame]:
     """Draw frame after frame until the user quits."""
     view = desk.view
     preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
     preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
     view.freedom, view.quality, view.ui_scale = preferences.freedom, preferences.quality, preferences.ui_scale
+    view.theme_name, view.habit, view.lately = preferences.theme, preferences.habit, preferences.lately
+    view.guide.step = preferences.guide
+    # Nobody is shown moving pictures at every start because nothing is remembered.
+    view.guide.lively = preferences_file is not None
     _set_up_imgui(start.settings_folder)
     software = _is_software(window.ctx)
     router = Router()
@@ -131,6 +138,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
     viewports: tuple[Viewport, ...] = (viewport,)
     desk.viewport = viewport
     scale: float | None = None
+    theme: Theme | None = None
     drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
     look_again: float | None = None
@@ -139,7 +147,7 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        busy = desk.loading is not None or desk.dialog is not None
+        busy = desk.loading is not None or desk.dialog is not None or view.guide.moving(began)
         settling = SETTLE if events or busy else settling - 1
         if 0 in window.size:
             # Minimised: there is nothing to draw on, and imgui would fold its panels up.
@@ -167,14 +175,17 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
         if window.scale * view.ui_scale / window.pixel_ratio != scale:
             reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
             scale = window.scale * view.ui_scale / window.pixel_ratio
-            apply_theme(scale)
+            theme = None
+        if view.theme is not theme:
+            theme = view.theme
+            apply_theme(theme, scale)
         desk.poll()
         desk.sync()
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.
         asked = router.take(events, desk, viewports, window.scale)
-        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds)
+        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         reset_layout = False
@@ -187,8 +198,9 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
 
             # The picture, where it is another than the last one.
             moving = moved or router.navigator.holding or desk.tool.holding
-            canvas = _canvas(view, rough, smooth, software=software, moving=moving)
-            wanted = _picture_key(desk, desk.stage, viewports, canvas, window.size)
+            quality = step(view.quality, software=software, moving=moving)
+            canvas = canvases.of(quality.samples)
+            wanted = _picture_key(desk, desk.stage, viewports, quality, window.size)
             if wanted != drawn:
                 canvas.resize(*window.size)
                 desk.stage.draw(
@@ -197,13 +209,13 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
                     view.panes,
                     desk.tool,
                     window.scale,
-                    fine=canvas is smooth,
-                    beside=PANEL,
+                    fine=quality.fine,
+                    beside=theme.panel,
                 )
                 drawn = wanted
             window.show(canvas.flat())
         else:
-            window.clear(PANEL)
+            window.clear(theme.panel)
         window.end_frame()
         seconds = perf_counter() - began
 
@@ -227,7 +239,17 @@ def _loop(window: Window, start: Start, desk: Desk, rough: Canvas, smooth: Canva
 def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
     """Return what to remember for the next run."""
     view = desk.view
-    found = replace(preferences, freedom=view.freedom, quality=view.quality, ui_scale=view.ui_scale, kept="")
+    found = replace(
+        preferences,
+        freedom=view.freedom,
+        quality=view.quality,
+        ui_scale=view.ui_scale,
+        theme=view.theme_name,
+        habit=view.habit,
+        guide=view.guide.step,
+        lately=view.lately,
+        kept="",
+    )
     if desk.opened is not None:
         found = found.opened(desk.opened)
     if desk.session is not None:
@@ -253,18 +275,13 @@ def _is_software(ctx: moderngl.Context) -> bool:
     return any(word in ctx.info["GL_RENDERER"].lower() for word in ("llvmpipe", "softpipe", "swiftshader"))
 
 
-def _canvas(view: View, rough: Canvas, smooth: Canvas, *, software: bool, moving: bool) -> Canvas:
-    if view.quality == "off" or (view.quality == "auto" and software and moving):
-        return rough
-    return smooth
-
-
 def _picture_key(
-    desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], canvas: Canvas, size: tuple[int, int]
+    desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], quality: Step, size: tuple[int, int]
 ) -> tuple[object, ...]:
     """Return everything the picture depends on; the same key means the same picture."""
     tool = desk.tool
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
     hands = (tool.selected, tool.hovered, tool.held)
-    return (stage, stage.refined, work, canvas, size, viewports, tuple(desk.cameras), overlays, hands)
+    seen = (quality, size, viewports, tuple(desk.cameras), desk.view.theme)
+    return (stage, stage.refined, work, *seen, overlays, hands)

@@ -19,7 +19,7 @@ from facepin.desk import Desk
 from facepin.panels.requests import PICTURES, Command, OpenPath, Request, command_for
 from facepin.session.drag import Sight, pin_at
 from facepin.session.edit import Edit
-from facepin.session.navigation import Navigator
+from facepin.session.navigation import PRESETS, Navigator
 from facepin.stage import Stage
 
 
@@ -69,8 +69,8 @@ class Router:
                 asked.append(Command.QUIT)
             case FilesDropped((first, *_)):
                 asked.append(OpenPath(first.parent if first.suffix.lower() == ".obj" else first))
-            case KeyPressed() if not imgui.get_io().want_text_input:
-                command = command_for(event)
+            case KeyPressed() if not imgui.get_io().want_text_input and desk.view.palette is None:
+                command = command_for(event, desk.view.habit)
                 in_hand = desk.tool.holding or self.navigator.holding
                 # What a gesture began with must not change under it; a picture of it may be taken.
                 if command is not None and (not in_hand or command in PICTURES):
@@ -122,7 +122,7 @@ class Router:
     def _navigate(self, event: Event, desk: Desk, viewports: Sequence[Viewport]) -> None:
         pane = min(self._pane, len(viewports) - 1, len(desk.cameras) - 1)  # it may have been closed meanwhile
         before = desk.cameras[pane]
-        camera = self.navigator.handle(event, before, viewports[pane])
+        camera = self.navigator.handle(event, before, viewports[pane], PRESETS[desk.view.habit])
         if camera is not before:
             desk.look(camera, pane)
 

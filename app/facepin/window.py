@@ -4,7 +4,7 @@ Without a display the same class opens on glfw's null platform: a real context, 
 """
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -42,6 +42,7 @@ _KEYS = {
     glfw.KEY_DELETE: "delete",
     glfw.KEY_BACKSPACE: "backspace",
     glfw.KEY_HOME: "home",
+    glfw.KEY_KP_DECIMAL: "numpad .",
     **{glfw.KEY_F1 + i: f"f{i + 1}" for i in range(12)},
     **{glfw.KEY_KP_0 + i: f"numpad {i}" for i in range(10)},
     **{glfw.KEY_0 + i: str(i) for i in range(10)},
@@ -152,6 +153,20 @@ class Window:
         """Say `title` in the title bar."""
         glfw.set_window_title(self._handle, title)
 
+    def set_icons(self, paths: Sequence[Path]) -> None:
+        """Show the picture of a fitting size in the task bar, where the system has a place for it.
+
+        Parameters
+        ----------
+        paths : sequence of Path
+            PNG files of several sizes.
+        """
+        from PIL import Image
+
+        pictures = [Image.open(path).convert("RGBA") for path in paths]
+        with _Complaints():
+            glfw.set_window_icon(self._handle, len(pictures), pictures)
+
     def poll(self, wait: float | None = None) -> list[Event]:
         """Return what happened since the last call, oldest first.
 
@@ -231,7 +246,7 @@ class Window:
         glfw.set_window_focus_callback(self._handle, self._on_stir)
         glfw.set_framebuffer_size_callback(self._handle, self._on_stir)
         glfw.set_window_content_scale_callback(self._handle, self._on_stir)
-        glfw.set_char_callback(self._handle, self._on_stir)
+        glfw.set_char_callback(self._handle, self._on_char)
 
     def _modifiers(self) -> Modifiers:
         def held(*keys: int) -> bool:
@@ -277,6 +292,10 @@ class Window:
 
     def _on_drop(self, _: object, paths: list[str]) -> None:
         self._events.append(FilesDropped(tuple(Path(path) for path in paths)))
+
+    def _on_char(self, _: object, code: int) -> None:
+        # Where this key is, and whether it needs Shift, is the keyboard's own affair.
+        self._events.append(KeyPressed("?") if chr(code) == "?" else Stirred())
 
     def _on_stir(self, *_: object) -> None:
         self._events.append(Stirred())

@@ -8,10 +8,11 @@ from typing import Any, Literal
 
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Freedom
+from facepin.core.quality import STEPS, Quality
 from facepin.files.atomic import atomic_write
 
-Quality = Literal["auto", "always", "off"]
-"""When edges are drawn smooth."""
+Theme = Literal["dark", "light"]
+Habit = Literal["facepin", "maya", "blender"]
 
 RECENT = 10
 """How many rigs are remembered."""
@@ -27,6 +28,13 @@ class Preferences:
     quality: Quality = "auto"
     ui_scale: float = 1.0
     solver: str = "transpose"
+    theme: Theme = "dark"
+    habit: Habit = "facepin"
+    """Whose mouse and keys the user knows."""
+    guide: int = 0
+    """How many of the first steps are done."""
+    lately: tuple[str, ...] = ()
+    """What was chosen in the command palette, newest first."""
     kept: str = ""
     """Where the pose is that the last run ended with and nobody saved."""
 
@@ -36,12 +44,18 @@ class Preferences:
         return replace(self, recent=(entry, *(other for other in self.recent if other != entry))[:RECENT])
 
 
+_RENAMED = {"quality": {"always": "good", "off": "fast"}}
+"""What earlier versions called a value."""
 _CHECKS: dict[str, Callable[[Any], bool]] = {
     "recent": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
     "freedom": lambda value: value in ("space", "screen"),
-    "quality": lambda value: value in ("auto", "always", "off"),
+    "quality": lambda value: value in ("auto", *STEPS),
     "ui_scale": lambda value: isinstance(value, int | float) and 0.5 <= value <= 4,
     "solver": lambda value: isinstance(value, str),
+    "theme": lambda value: value in ("dark", "light"),
+    "habit": lambda value: value in ("facepin", "maya", "blender"),
+    "guide": lambda value: isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= 1000,
+    "lately": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
     "kept": lambda value: isinstance(value, str),
 }
 
@@ -59,10 +73,15 @@ def read_preferences(path: Path) -> tuple[Preferences, str | None]:
         return Preferences(), f"{path.name}: preferences could not be read ({error}); the defaults are used"
     if not isinstance(found, dict):
         return Preferences(), f"{path.name}: preferences are not a JSON object; the defaults are used"
+    for key, names in _RENAMED.items():
+        if isinstance(found.get(key), str):
+            found[key] = names.get(found[key], found[key])
     usable = {name: found[name] for name, check in _CHECKS.items() if name in found and check(found[name])}
     wrong = sorted(set(found) & {field.name for field in fields(Preferences)} - set(usable))
     if "recent" in usable:
         usable["recent"] = tuple(usable["recent"][:RECENT])
+    if "lately" in usable:
+        usable["lately"] = tuple(usable["lately"][:RECENT])
     line = f"{path.name}: {', '.join(wrong)} could not be used; the default stands" if wrong else None
     return Preferences(**usable), line
 

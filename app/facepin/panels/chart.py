@@ -9,7 +9,7 @@ from facepin.core.arrays import Floats
 from facepin.core.measures import e_rms, weight_errors
 from facepin.core.rig import Rig
 from facepin.panels.requests import Command
-from facepin.panels.theme import TEXT_DIM, Colour, pane_colours
+from facepin.panels.theme import Colour, Theme, pane_colours
 from facepin.session.session import Pane
 
 TITLE = "Chart"
@@ -22,7 +22,7 @@ _MARKERS = (
 
 
 def chart_window(
-    rig: Rig, panes: Sequence[Pane], reference: Floats | None, scale: float
+    rig: Rig, panes: Sequence[Pane], reference: Floats | None, scale: float, theme: Theme
 ) -> tuple[bool, Command | None]:
     """Draw the chart window; return whether it stays open, and what the user asks for.
 
@@ -36,12 +36,14 @@ def chart_window(
         Weights that the panes are measured against, or None.
     scale : float
         Pixels per pixel of a 1x screen.
+    theme : Theme
+        Colours.
     """
     imgui.set_next_window_size(imgui.ImVec2(760 * scale, 520 * scale), imgui.Cond_.first_use_ever)
     shown, stays = imgui.begin(TITLE, True)
     asked: Command | None = None
     if shown:
-        colours = pane_colours([pane.choice.kind.key for pane in panes])
+        colours = pane_colours(theme, [pane.choice.kind.key for pane in panes])
         titles = [f"{at + 1} {pane.choice.kind.title}" for at, pane in enumerate(panes)]
         weights = [pane.pose.weights for pane in panes]
         if imgui.button("Save chart"):
@@ -54,7 +56,7 @@ def chart_window(
         upper = height if reference is None else 0.5 * (height - imgui.get_style().item_spacing.y)
         if implot.begin_plot("##weights", imgui.ImVec2(-1, upper), implot.Flags_.no_mouse_text):
             _axes(rig, "weight")
-            _bars(titles, weights, colours, reference)
+            _bars(titles, weights, colours, reference, theme)
             _name_under_mouse(rig)
             implot.end_plot()
         if reference is not None and implot.begin_plot(
@@ -76,11 +78,15 @@ def _axes(rig: Rig, label: str) -> None:
 
 
 def _bars(
-    titles: Sequence[str], weights: Sequence[Floats], colours: Sequence[Colour], reference: Floats | None
+    titles: Sequence[str],
+    weights: Sequence[Floats],
+    colours: Sequence[Colour],
+    reference: Floats | None,
+    theme: Theme,
 ) -> None:
     series = list(zip(titles, weights, colours, strict=True))
     if reference is not None:
-        series.insert(0, ("Reference", reference, TEXT_DIM))
+        series.insert(0, ("Reference", reference, theme.text_dim))
     width = 0.8 / len(series)
     at = np.arange(len(weights[0]), dtype=np.float64)
     for number, (title, values, colour) in enumerate(series):

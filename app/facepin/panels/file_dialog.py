@@ -108,6 +108,10 @@ class FileDialog:
         """Take the typed path for the answer, unless it would replace a file and nobody said yes to that."""
         if self._kind == "save file" and not path.suffix:
             path = path.with_suffix(self._suffix)
+        if self._kind != "save file" and not path.exists():
+            self._remark = f"There is no {path.name or path}: is the path right?"
+            self._fresh = True
+            return
         if self._kind == "save file" and path.exists() and self._replaces != path:
             self._replaces = path
             self._remark = f"{path.name} exists: press Enter again to replace it."

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.core.heat import BEYOND, heat_colours, heat_scale, hex_colours
 from facepin.core.measures import percent
-from facepin.panels.theme import PANEL, TEXT, TEXT_DIM, Colour, packed
+from facepin.panels.theme import PICTURE, VEIL, Colour, packed
 
 BANDS = 48
 """Pieces that the bar of colours is drawn in."""
@@ -44,8 +44,9 @@ def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float
         return
     draw = imgui.get_background_draw_list()
     left, top = right - width, bottom - tall
-    draw.add_rect_filled(imgui.ImVec2(left, top), imgui.ImVec2(right, bottom), packed(PANEL, 0.72), 3 * scale)
-    draw.add_text(imgui.ImVec2(left + padding, top + padding), packed(TEXT), "Moved")
+    ground = packed(PICTURE.panel, VEIL)
+    draw.add_rect_filled(imgui.ImVec2(left, top), imgui.ImVec2(right, bottom), ground, 3 * scale)
+    draw.add_text(imgui.ImVec2(left + padding, top + padding), packed(PICTURE.text), "Moved")
 
     colours = _bands()
     start = left + padding + widths[0] + gap
@@ -68,9 +69,9 @@ def heat_legend(height: float, place: Viewport, pixel_ratio: float, scale: float
     for at, (length, share) in enumerate(zip(lengths, shares, strict=True)):
         y = floor - at * bar_height / (len(ticks) - 1)
         x = start - gap - imgui.calc_text_size(length).x
-        draw.add_text(imgui.ImVec2(x, y - line / 2), packed(TEXT), length)
-        draw.add_text(imgui.ImVec2(end + gap, y - line / 2), packed(TEXT_DIM), share)
-        draw.add_line(imgui.ImVec2(end, y), imgui.ImVec2(end + 3 * scale, y), packed(TEXT_DIM), scale)
+        draw.add_text(imgui.ImVec2(x, y - line / 2), packed(PICTURE.text), length)
+        draw.add_text(imgui.ImVec2(end + gap, y - line / 2), packed(PICTURE.text_dim), share)
+        draw.add_line(imgui.ImVec2(end, y), imgui.ImVec2(end + 3 * scale, y), packed(PICTURE.text_dim), scale)
 
 
 @cache

@@ -5,11 +5,12 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from facepin.core.pose import Freedom, Pin
+from facepin.core.pose import Pin
 from facepin.panels import layout
 from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import (
     AddPane,
+    Choose,
     ClosePane,
     Command,
     KeepPane,
@@ -17,19 +18,13 @@ from facepin.panels.requests import (
     RandomReference,
     Request,
     SetPin,
+    key_of,
 )
-from facepin.panels.view import View
+from facepin.panels.view import CHOICES, FREEDOMS, View
+from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
 from facepin.solvers import SOLVERS
-
-FREEDOMS: dict[Freedom, str] = {
-    "space": "Hold in space (x, y and z)",
-    "screen": "Hold on screen (depth free)",
-}
-
-RANDOM_SHAPES = (1, 2, 4, 8, 12)
-"""Sizes of random reference poses on offer."""
 
 
 def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Request | None:
@@ -55,37 +50,33 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         return None
     if imgui.begin_menu("File"):
         close_on_escape()
-        asked = _item(Command.OPEN_FILE) or _item(Command.OPEN_FOLDER) or asked
+        asked = _item(view, Command.OPEN_FILE) or _item(view, Command.OPEN_FOLDER) or asked
         if imgui.begin_menu("Open recent", bool(recent)):
             for path in recent:
                 if imgui.menu_item_simple(f"{path.name}##{path}"):
                     asked = OpenPath(path)
                 imgui.set_item_tooltip(str(path))
             imgui.end_menu()
-        asked = _item(Command.OPEN_BUILTIN) or asked
+        asked = _item(view, Command.OPEN_BUILTIN) or asked
         imgui.separator()
         for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT):
-            asked = _item(command) or asked
+            asked = _item(view, command) or asked
         imgui.separator()
         for command in (Command.SCREENSHOT, Command.SCREENSHOT_PINS):
-            asked = _item(command, session is not None) or asked
+            asked = _item(view, command, session is not None) or asked
         imgui.separator()
-        asked = _item(Command.QUIT) or asked
+        asked = _item(view, Command.QUIT) or asked
         imgui.end_menu()
     if imgui.begin_menu("Edit"):
         close_on_escape()
-        asked = _item(Command.UNDO, undo is not None, undo) or asked
-        asked = _item(Command.REDO, redo is not None, redo) or asked
+        asked = _item(view, Command.UNDO, undo is not None, undo) or asked
+        asked = _item(view, Command.REDO, redo is not None, redo) or asked
         imgui.separator()
-        asked = _item(Command.DELETE_PINS, bool(pins)) or asked
-        asked = _item(Command.CLEAR_PINS, bool(pins)) or asked
-        asked = _item(Command.RESET_POSE) or asked
+        asked = _item(view, Command.DELETE_PINS, bool(pins)) or asked
+        asked = _item(view, Command.CLEAR_PINS, bool(pins)) or asked
+        asked = _item(view, Command.RESET_POSE) or asked
         imgui.separator()
-        if imgui.begin_menu("New pins"):
-            for freedom, title in FREEDOMS.items():
-                if imgui.menu_item_simple(title, selected=view.freedom == freedom):
-                    view.freedom = freedom
-            imgui.end_menu()
+        asked = _choices(view, "freedom") or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()
@@ -94,22 +85,28 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     if imgui.begin_menu("View"):
         close_on_escape()
         for command in (Command.FRAME, Command.FRONT, Command.LEFT, Command.RIGHT, Command.THREE_QUARTER):
-            asked = _item(command) or asked
+            asked = _item(view, command) or asked
         imgui.separator()
         if session is not None:
-            overlay_items(view.panes[session.active], has_reference=session.work.reference is not None)
+            overlay_items(
+                view.panes[session.active], view.habit, has_reference=session.work.reference is not None
+            )
             imgui.separator()
-        if imgui.begin_menu("Smooth edges"):
-            for quality, title in view.QUALITIES.items():
-                if imgui.menu_item_simple(title, selected=view.quality == quality):
-                    view.quality = quality
-            imgui.end_menu()
-        if imgui.begin_menu("Interface size"):
-            for factor in (0.8, 1.0, 1.25, 1.5, 2.0):
-                if imgui.menu_item_simple(f"{factor:.0%}", selected=view.ui_scale == factor):
-                    view.ui_scale = factor
-            imgui.end_menu()
-        asked = _item(Command.RESET_LAYOUT) or asked
+        asked = _choices(view, "quality") or asked
+        imgui.end_menu()
+    if imgui.begin_menu("Settings"):
+        close_on_escape()
+        for name in ("theme_name", "habit", "ui_scale"):
+            asked = _choices(view, name) or asked
+        imgui.separator()
+        asked = _item(view, Command.RESET_LAYOUT) or asked
+        imgui.end_menu()
+    if imgui.begin_menu("Help"):
+        close_on_escape()
+        for command in (Command.PALETTE, Command.KEYBOARD, Command.GUIDE):
+            asked = _item(view, command) or asked
+        imgui.separator()
+        asked = _item(view, Command.ABOUT) or asked
         imgui.end_menu()
     imgui.end_main_menu_bar()
     return asked
@@ -128,19 +125,18 @@ def _compare(view: View, session: Session) -> Request | None:
         asked = KeepPane(session.active)
     if imgui.menu_item_simple("Close the selected pane", enabled=several):
         asked = ClosePane(session.active)
-    if imgui.menu_item_simple("One camera for all panes", selected=view.linked, enabled=several):
-        view.linked = not view.linked
+    asked = _choices(view, "linked", several) or asked
     imgui.separator()
     for command in (Command.REFERENCE_FROM_POSE, Command.REFERENCE_FROM_FILE):
-        asked = _item(command) or asked
+        asked = _item(view, command) or asked
     if imgui.begin_menu("Random reference"):
         for shapes in RANDOM_SHAPES:
             if imgui.menu_item_simple(f"of {shapes} shape{'s' if shapes > 1 else ''}"):
                 asked = RandomReference(shapes)
         imgui.end_menu()
-    asked = _item(Command.FORGET_REFERENCE, session.work.reference is not None) or asked
+    asked = _item(view, Command.FORGET_REFERENCE, session.work.reference is not None) or asked
     imgui.separator()
-    return _item(Command.CHART) or asked
+    return _item(view, Command.CHART) or asked
 
 
 def pin_menu(pin: Pin) -> SetPin | None:
@@ -163,7 +159,22 @@ def pin_menu(pin: Pin) -> SetPin | None:
     return request
 
 
-def _item(command: Command, enabled: bool = True, detail: str | None = None) -> Command | None:
+def _item(view: View, command: Command, enabled: bool = True, detail: str | None = None) -> Command | None:
+    """Draw the item of a command, with its key and what it does."""
     title = f"{command.title}: {detail}" if detail else command.title
-    shortcut = command.shortcuts[0] if command.shortcuts else None
-    return command if imgui.menu_item_simple(title, shortcut, enabled=enabled) else None
+    chosen = imgui.menu_item_simple(title, key_of(command, view.habit) or None, enabled=enabled)
+    if command.help:
+        imgui.set_item_tooltip(command.help)
+    return command if chosen else None
+
+
+def _choices(view: View, name: str, enabled: bool = True) -> Choose | None:
+    """Draw the submenu of one of the choices."""
+    choice, chosen = CHOICES[name], None
+    if imgui.begin_menu(choice.title, enabled):
+        for value, title in choice.values.items():
+            if imgui.menu_item_simple(title, selected=getattr(view, name) == value):
+                chosen = Choose(name, value)
+            imgui.set_item_tooltip(choice.help)
+        imgui.end_menu()
+    return chosen

@@ -7,12 +7,24 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import ClosePane, KeepPane, Request, SelectPane, UseSolver
-from facepin.panels.theme import TEXT, WARNING, Colour, packed
+from facepin.panels.theme import PICTURE, VEIL, Colour, packed
 from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal
+from facepin.session.navigation import Habit
 from facepin.session.session import Pane
 from facepin.session.solving import SolverChoice, choose
 from facepin.solvers import SOLVERS
+
+_COLOURS = {
+    imgui.Col_.window_bg: PICTURE.panel,
+    imgui.Col_.popup_bg: PICTURE.popup,
+    imgui.Col_.border: PICTURE.border,
+    imgui.Col_.text: PICTURE.text,
+    imgui.Col_.text_disabled: PICTURE.text_dim,
+    imgui.Col_.button: PICTURE.frame_hovered,
+    imgui.Col_.button_hovered: PICTURE.frame_active,
+    imgui.Col_.button_active: PICTURE.accent_dim,
+}
 
 
 def pane_title(
@@ -25,6 +37,7 @@ def pane_title(
     scale: float,
     *,
     colour: Colour,
+    habit: Habit,
     active: bool,
     has_reference: bool,
 ) -> list[Request]:
@@ -44,6 +57,8 @@ def pane_title(
         Framebuffer pixels per imgui unit, imgui units per pixel of a 1x screen.
     colour : Colour
         The pane's.
+    habit : str
+        Whose keys the menu shows.
     active : bool
         Whether its numbers are the ones that the panels show.
     has_reference : bool
@@ -68,7 +83,7 @@ def pane_title(
     imgui.set_next_window_size_constraints(
         imgui.ImVec2(0, 0), imgui.ImVec2(max(right - left - 8 * scale, 1), max(bottom - top, 1))
     )
-    imgui.set_next_window_bg_alpha(0.72)
+    imgui.set_next_window_bg_alpha(VEIL)
     flags = (
         imgui.WindowFlags_.no_decoration
         | imgui.WindowFlags_.always_auto_resize
@@ -79,6 +94,8 @@ def pane_title(
         | imgui.WindowFlags_.no_bring_to_front_on_focus
     )
     asked: list[Request] = []
+    for index, of_picture in _COLOURS.items():
+        imgui.push_style_color(index, imgui.ImVec4(*of_picture))
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 0)
     imgui.begin(f"##pane {at}", None, flags)
     imgui.pop_style_var()
@@ -93,8 +110,9 @@ def pane_title(
     _figures(pane, appraisal)
     if not active and imgui.is_window_hovered() and imgui.is_mouse_clicked(0):
         asked.append(SelectPane(at))
+    imgui.pop_style_color(len(_COLOURS))
     if imgui.begin_popup("pane"):
-        asked += _menu(at, pane, view, has_reference=has_reference)
+        asked += _menu(at, pane, view, habit, has_reference=has_reference)
         imgui.end_popup()
     imgui.end()
     return asked
@@ -120,29 +138,30 @@ def _figures(pane: Pane, appraisal: Appraisal) -> None:
     """Two short lines: how far off, how calm, how many; what is out of range stands out."""
     time = "" if pane.solved is None else f"{pane.solved.seconds * 1e3:.2f} ms"
     imgui.text_colored(
-        imgui.ImVec4(*TEXT), f"pins {appraisal.pin_error:.2f} %   far {appraisal.far_motion:.2f} %   {time}"
+        imgui.ImVec4(*PICTURE.text),
+        f"pins {appraisal.pin_error:.2f} %   far {appraisal.far_motion:.2f} %   {time}",
     )
     imgui.set_item_tooltip(
         "Mean distance of the pins from their goals, and largest move of a vertex that should rest,\n"
         "both in per cent of the face height; time of the last solve."
     )
-    imgui.text_colored(imgui.ImVec4(*TEXT), f"{appraisal.active} active")
+    imgui.text_colored(imgui.ImVec4(*PICTURE.text), f"{appraisal.active} active")
     if appraisal.out_of_range:
         imgui.same_line()
-        imgui.text_colored(imgui.ImVec4(*WARNING), f"{appraisal.out_of_range} out of range")
+        imgui.text_colored(imgui.ImVec4(*PICTURE.warning), f"{appraisal.out_of_range} out of range")
     if appraisal.e_rms is not None:
         imgui.same_line()
-        imgui.text_colored(imgui.ImVec4(*TEXT), f"E_RMS {appraisal.e_rms:.3f}")
+        imgui.text_colored(imgui.ImVec4(*PICTURE.text), f"E_RMS {appraisal.e_rms:.3f}")
 
 
-def _menu(at: int, pane: Pane, view: PaneView, *, has_reference: bool) -> list[Request]:
+def _menu(at: int, pane: Pane, view: PaneView, habit: Habit, *, has_reference: bool) -> list[Request]:
     asked: list[Request] = []
     close_on_escape()
     for key, kind in SOLVERS.items():
         if imgui.menu_item_simple(kind.title, selected=kind is pane.choice.kind):
             asked.append(UseSolver(at, choose(key, keep_limits=pane.choice.keep_limits)))
     imgui.separator()
-    overlay_items(view, has_reference=has_reference)
+    overlay_items(view, habit, has_reference=has_reference)
     imgui.separator()
     if imgui.menu_item_simple("Keep this one"):
         asked.append(KeepPane(at))

@@ -3,55 +3,136 @@
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
+from typing import Literal
 
 from facepin.core.camera import View
 from facepin.core.events import KeyPressed
 from facepin.core.pose import Freedom
+from facepin.session.navigation import Habit
 from facepin.session.solving import SolverChoice
+
+Topic = Literal["File", "Edit", "Pins", "View", "Compare", "Help", "More"]
+"""What commands are listed under, in this order."""
 
 
 class Command(Enum):
-    """Everything that needs no further word: (title, shortcuts).  Menus and keys share this one table."""
+    """Everything that needs no further word: (title, shortcuts, topic, a sentence of help).
 
-    OPEN_FILE = "Open file…", ("Ctrl+O",)
-    OPEN_FOLDER = "Open folder of OBJ files…", ("Ctrl+Shift+O",)
-    OPEN_BUILTIN = "Open the built-in face", ()
-    LOAD_POSE = "Load pose…", ("Ctrl+L",)
-    SAVE_POSE = "Save pose…", ("Ctrl+S",)
-    EXPORT = "Export model…", ("Ctrl+E",)
-    SCREENSHOT = "Save picture", ("F12",)
-    SCREENSHOT_PINS = "Save picture with pins", ("Shift+F12",)
-    QUIT = "Quit", ("Ctrl+Q",)
-    UNDO = "Undo", ("Ctrl+Z",)
-    REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y")
-    RESET_POSE = "Reset the pose", ("Home",)
-    DELETE_PINS = "Remove selected pins", ("Delete", "Backspace")
-    CLEAR_PINS = "Remove all pins", ()
-    FRAME = "Frame the face", ("F",)
-    FRONT = "Front", ("1", "Numpad 1")
-    LEFT = "Character's left", ("3", "Numpad 3")
-    RIGHT = "Character's right", ("Ctrl+3",)
-    THREE_QUARTER = "Three-quarter", ("7", "Numpad 7")
-    SHADING = "Next shading", ("S",)
-    HEAT = "Heat map of the move", ("H",)
-    WIREFRAME = "Wireframe", ("W",)
-    GHOST = "Ghost: none, neutral, reference", ("G",)
-    RESET_LAYOUT = "Reset the panel layout", ()
-    REFERENCE_FROM_POSE = "Take this pose as the reference", ()
-    REFERENCE_FROM_FILE = "Reference from a file…", ()
-    CHART = "Chart of weights and errors", ("F4",)
-    SAVE_CHART = "Save the chart", ()
-    FORGET_REFERENCE = "Forget the reference", ()
+    Menus, keys, the command palette, the keyboard map and their tooltips share this one table.
+    """
 
-    @property
-    def title(self) -> str:
+    OPEN_FILE = "Open file…", ("Ctrl+O",), "File", "Opens a face: .glb, .gltf, .vrm, .npz or .obj."
+    OPEN_FOLDER = (
+        "Open folder of OBJ files…",
+        ("Ctrl+Shift+O",),
+        "File",
+        "Opens a face whose neutral and shapes are one OBJ file each.",
+    )
+    OPEN_BUILTIN = "Open the built-in face", (), "File", "Opens the face that comes with Facepin."
+    LOAD_POSE = (
+        "Load pose…",
+        ("Ctrl+L",),
+        "File",
+        "Puts a saved pose on this face; shapes are matched by name, so it may come from another rig.",
+    )
+    SAVE_POSE = "Save pose…", ("Ctrl+S",), "File", "Writes weights and pins as .json or .csv."
+    EXPORT = (
+        "Export model…",
+        ("Ctrl+E",),
+        "File",
+        "Writes the rig with its pose as .glb, or the posed mesh as .obj, .ply or .stl.",
+    )
+    SCREENSHOT = "Save picture", ("F12",), "File", "Saves the face of the selected pane as a PNG."
+    SCREENSHOT_PINS = (
+        "Save picture with pins",
+        ("Shift+F12",),
+        "File",
+        "Saves what the selected pane shows, with its pins and their goals.",
+    )
+    QUIT = "Quit", ("Ctrl+Q",), "File", "Leaves; a pose that was not saved is kept for the next start."
+    UNDO = "Undo", ("Ctrl+Z",), "Edit", "Takes the last change back; a whole drag is one step."
+    REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Edit", "Brings back what was undone."
+    RESET_POSE = "Reset the pose", ("Home",), "Edit", "All weights to zero; pins stay on their points."
+    DELETE_PINS = "Remove selected pins", ("Delete", "Backspace"), "Pins", "The pose stays as it is."
+    CLEAR_PINS = "Remove all pins", (), "Pins", "Frees every point; the pose stays as it is."
+    FRAME = "Frame the face", ("F",), "View", "Brings the whole face into the picture."
+    FRONT = "Front", ("1", "Numpad 1"), "View", "Looks at the face from the front."
+    LEFT = "Character's left", ("3", "Numpad 3"), "View", "Looks at the side that is left to the character."
+    RIGHT = (
+        "Character's right",
+        ("Ctrl+3", "Ctrl+Numpad 3"),
+        "View",
+        "Looks at the side that is right to the character.",
+    )
+    THREE_QUARTER = (
+        "Three-quarter",
+        ("7", "Numpad 7"),
+        "View",
+        "Looks half from the side, half from the front.",
+    )
+    SHADING = (
+        "Next shading",
+        ("S",),
+        "View",
+        "Goes on from studio to clay, wireframe over clay, normals, heat map.",
+    )
+    HEAT = (
+        "Heat map of the move",
+        ("H",),
+        "View",
+        "Colours the skin by how far it moved since the drag began: unwanted motion shows at once.",
+    )
+    WIREFRAME = "Wireframe", ("W",), "View", "Draws the edges of the mesh over the face."
+    GHOST = (
+        "Ghost: none, neutral, reference",
+        ("G",),
+        "View",
+        "Lets the neutral or the reference pose shine through.",
+    )
+    RESET_LAYOUT = "Reset the panel layout", (), "View", "Puts all panels back to where they stood first."
+    REFERENCE_FROM_POSE = (
+        "Take this pose as the reference",
+        (),
+        "Compare",
+        "Errors are then measured against the pose as it is now.",
+    )
+    REFERENCE_FROM_FILE = (
+        "Reference from a file…",
+        (),
+        "Compare",
+        "Errors are then measured against a saved pose.",
+    )
+    CHART = (
+        "Chart of weights and errors",
+        ("F4",),
+        "Compare",
+        "Weights of all panes as bars, and their errors against the reference.",
+    )
+    SAVE_CHART = "Save the chart", (), "Compare", "As PNG, SVG and CSV, beside the pictures."
+    FORGET_REFERENCE = "Forget the reference", (), "Compare", "Nothing is measured against it any more."
+    PALETTE = (
+        "Find an action…",
+        ("Ctrl+P", "Ctrl+Shift+P"),
+        "Help",
+        "Lists everything Facepin can do: type some letters of it, press Enter.",
+    )
+    KEYBOARD = "Keyboard and mouse", ("?", "F1"), "Help", "Shows every key and every gesture of the mouse."
+    GUIDE = (
+        "Show the first steps again",
+        (),
+        "Help",
+        "Leads through the first drag, at the bottom of the picture.",
+    )
+    ABOUT = "About Facepin", (), "Help", "Version, licences, and the graphics driver for a bug report."
+
+    def __init__(self, title: str, shortcuts: tuple[str, ...], topic: Topic = "More", help: str = "") -> None:
+        self.title = title
         """What a menu calls it."""
-        return str(self.value[0])
-
-    @property
-    def shortcuts(self) -> tuple[str, ...]:
-        """Keys that ask for it; the first one stands in the menu."""
-        return tuple(self.value[1])
+        self.shortcuts = shortcuts
+        """Keys that ask for it, unless the user's habit has others: see `keys_of`."""
+        self.topic = topic
+        self.help = help
+        """One sentence that teaches what it does."""
 
 
 PICTURES = (Command.SCREENSHOT, Command.SCREENSHOT_PINS)
@@ -64,15 +145,44 @@ VIEW_COMMANDS: dict[Command, View] = {
     Command.THREE_QUARTER: "three-quarter",
 }
 
+HABIT_KEYS: dict[Habit, dict[Command, tuple[str, ...]]] = {
+    "facepin": {},
+    "maya": {
+        Command.UNDO: ("Ctrl+Z", "Z"),
+        Command.REDO: ("Ctrl+Y", "Shift+Z", "Ctrl+Shift+Z"),
+        Command.FRAME: ("F", "A"),
+        Command.WIREFRAME: ("4",),
+    },
+    "blender": {
+        Command.RESET_POSE: ("Alt+G",),
+        Command.DELETE_PINS: ("X", "Delete", "Backspace"),
+        Command.FRAME: ("Home", "Numpad .", "F"),
+        Command.THREE_QUARTER: ("7", "Numpad 0"),
+        Command.WIREFRAME: ("Shift+Z", "W"),
+        Command.PALETTE: ("F3", "Ctrl+P", "Ctrl+Shift+P"),
+    },
+}
+"""Keys that are others than in the table of commands, where a habit has them."""
 
-def command_for(event: KeyPressed) -> Command | None:
+
+def keys_of(command: Command, habit: Habit) -> tuple[str, ...]:
+    """Return the keys that ask for a command; the first one stands in the menus."""
+    return HABIT_KEYS[habit].get(command, command.shortcuts)
+
+
+def key_of(command: Command, habit: Habit) -> str:
+    """Return the key that a menu shows for a command; empty when it has none."""
+    return next(iter(keys_of(command, habit)), "")
+
+
+def command_for(event: KeyPressed, habit: Habit) -> Command | None:
     """Return the command a key asks for, or None."""
     keys = (
         ["ctrl"] * event.modifiers.control + ["shift"] * event.modifiers.shift + ["alt"] * event.modifiers.alt
     )
     pressed = "+".join([*keys, event.key])
     for command in Command:
-        if any(shortcut.lower() == pressed for shortcut in command.shortcuts):
+        if any(shortcut.lower() == pressed for shortcut in keys_of(command, habit)):
             return command
     return None
 
@@ -141,6 +251,14 @@ class SetPin:
 
 
 @dataclass(frozen=True)
+class Choose:
+    """Set one of the choices of `panels.view.CHOICES`."""
+
+    name: str
+    value: object
+
+
+@dataclass(frozen=True)
 class CancelLoading:
     """Give up opening a file."""
 
@@ -155,5 +273,6 @@ Request = (
     | KeepPane
     | RandomReference
     | SetPin
+    | Choose
     | CancelLoading
 )

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
+from facepin.core.control import ShapeControl
 from facepin.core.measures import out_of_range
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import UseSolver
-from facepin.panels.theme import WARNING
+from facepin.panels.theme import Theme
 from facepin.panels.view import PaneView
 from facepin.session.session import Pane
 from facepin.session.solving import Solved, choose
@@ -21,19 +22,22 @@ HUGE = 10.0
 """A weight beyond this is worth a warning: the face is off the screen."""
 
 
-def solver_panel(rig: Rig, pane: Pane, at: int, view: PaneView) -> UseSolver | None:
+def solver_panel(
+    rig: Rig, control: ShapeControl, pane: Pane, at: int, view: PaneView, theme: Theme
+) -> UseSolver | None:
     """Draw the solver of pane number `at`; return what the user changes in this frame, or None.
 
-    `view` is told whether the pane should show how far a radius reaches.
+    `view` is told whether the pane should show how far a radius reaches, and remembers the solver.
     """
     choice = pane.choice
     view.reach = False
+    view.choices[choice.kind.key] = choice
     request = None
     imgui.set_next_item_width(-1)
     if imgui.begin_combo("##solver", choice.kind.title):
         for key, kind in SOLVERS.items():
             if imgui.selectable(kind.title, kind is choice.kind)[0] and kind is not choice.kind:
-                request = UseSolver(at, choose(key, keep_limits=choice.keep_limits))
+                request = UseSolver(at, view.choices.get(key) or choose(key, keep_limits=choice.keep_limits))
             imgui.set_item_tooltip(kind.summary)
         imgui.end_combo()
     _sentence(choice.kind.summary)
@@ -58,7 +62,7 @@ def solver_panel(rig: Rig, pane: Pane, at: int, view: PaneView) -> UseSolver | N
         if changed:
             request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
     imgui.separator()
-    _answer(rig, pane.pose, pane.solved)
+    _answer(rig, control, pane.pose, pane.solved, theme)
     return request
 
 
@@ -92,12 +96,12 @@ def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any
     return changed, new
 
 
-def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:
+def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved | None, theme: Theme) -> None:
     """Draw what the last solve was like."""
     if solved is None:
         _sentence("Drag a point of the face: the solver's figures appear here.")
         return
-    outside = out_of_range(pose.weights, rig.limits)
+    outside = out_of_range(pose.weights, control.limits_at(pose.weights))
     largest = float(np.abs(pose.weights).max(initial=0.0))
     figures = {
         "solve time": f"{solved.seconds * 1e3:.2f} ms",
@@ -114,7 +118,7 @@ def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:
             imgui.text_disabled(name)
             imgui.table_next_column()
             if (name == "out of range" and outside) or name == "largest weight":
-                imgui.text_colored(imgui.ImVec4(*WARNING), value)
+                imgui.text_colored(imgui.ImVec4(*theme.warning), value)
             else:
                 imgui.text(value)
         imgui.end_table()

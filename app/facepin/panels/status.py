@@ -1,18 +1,23 @@
-"""The status line, the loading card and the hint over an untouched face."""
+"""The status line and the loading card."""
 
 from collections.abc import Sequence
 
 from imgui_bundle import imgui
 
-from facepin.core.camera import Viewport
 from facepin.core.rig import Rig
 from facepin.panels import layout
 from facepin.panels.requests import CancelLoading
-from facepin.panels.theme import ACCENT, TEXT, WARNING, packed
+from facepin.panels.theme import Theme
 
 
 def status_line(
-    rig: Rig | None, timing: str, message: str, *, is_error: bool, warnings: Sequence[str] = ()
+    rig: Rig | None,
+    timing: str,
+    message: str,
+    theme: Theme,
+    *,
+    is_error: bool,
+    warnings: Sequence[str] = (),
 ) -> None:
     """Draw the line at the bottom: what is open, how fast it is, and the last message."""
     height = imgui.get_frame_height() + imgui.get_style().window_padding.y * 0.5
@@ -40,11 +45,11 @@ def status_line(
         if warnings:
             imgui.same_line()
             count = f"{len(warnings)} warning" + ("s" if len(warnings) > 1 else "")
-            imgui.text_colored(imgui.ImVec4(*ACCENT), count)
+            imgui.text_colored(imgui.ImVec4(*theme.accent), count)
             imgui.set_item_tooltip("\n".join(warnings))
         if message:
             imgui.same_line(0, 2 * imgui.get_font_size())
-            imgui.text_colored(imgui.ImVec4(*(WARNING if is_error else TEXT)), message)
+            imgui.text_colored(imgui.ImVec4(*(theme.warning if is_error else theme.text)), message)
             imgui.set_item_tooltip(message)
         padding = imgui.get_style().window_padding.x
         right = imgui.get_window_width() - imgui.calc_text_size(timing).x - padding
@@ -73,19 +78,3 @@ def loading_card(name: str, fraction: float, line: str) -> CancelLoading | None:
     cancelled = imgui.button("Cancel", imgui.ImVec2(-1, 0))
     imgui.end()
     return CancelLoading() if cancelled else None
-
-
-def hint(text: str, viewport: Viewport, pixel_ratio: float) -> None:
-    """Write a line at the bottom of the picture."""
-    size = imgui.calc_text_size(text)
-    x = (viewport.x + viewport.width / 2) / pixel_ratio - size.x / 2
-    y = (viewport.y + viewport.height) / pixel_ratio - 2.2 * size.y
-    draw = imgui.get_background_draw_list()
-    pad = 0.6 * size.y
-    draw.add_rect_filled(
-        imgui.ImVec2(x - 1.5 * pad, y - 0.5 * pad),
-        imgui.ImVec2(x + size.x + 1.5 * pad, y + size.y + 0.5 * pad),
-        packed((0, 0, 0, 0.35)),
-        size.y,
-    )
-    draw.add_text(imgui.ImVec2(x, y), packed(TEXT, 0.85), text)

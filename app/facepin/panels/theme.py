@@ -1,6 +1,8 @@
 """Colours, spacing and fonts of all panels."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
 
 from imgui_bundle import imgui
 
@@ -8,22 +10,81 @@ from facepin.resources import resource
 from facepin.solvers.colours import INKS
 
 Colour = tuple[float, float, float, float]
+"""Red, green, blue and opacity, 0..1."""
+ThemeName = Literal["dark", "light"]
 
-ACCENT: Colour = (0.98, 0.62, 0.24, 1.0)
-"""One accent, a warm orange: readable on the dark panels and beside skin, for colour-blind eyes too."""
-ACCENT_DIM: Colour = (0.98, 0.62, 0.24, 0.38)
-WARNING: Colour = (0.96, 0.40, 0.36, 1.0)
-TEXT: Colour = (0.90, 0.90, 0.91, 1.0)
-TEXT_DIM: Colour = (0.60, 0.61, 0.64, 1.0)
-PANEL: Colour = (0.125, 0.129, 0.141, 1.0)
-FRAME: Colour = (0.185, 0.191, 0.208, 1.0)
-FRAME_HOVERED: Colour = (0.235, 0.243, 0.264, 1.0)
-FRAME_ACTIVE: Colour = (0.285, 0.295, 0.320, 1.0)
-BORDER: Colour = (0.07, 0.072, 0.08, 1.0)
+
+@dataclass(frozen=True)
+class Theme:
+    """Every colour that the panels are made of."""
+
+    accent: Colour
+    """The only one that is not grey.  Orange: readable beside skin, for colour-blind eyes too."""
+    warning: Colour
+    text: Colour
+    text_dim: Colour
+    panel: Colour
+    bar: Colour
+    """Of the menu bar and behind tabs."""
+    popup: Colour
+    frame: Colour
+    """Of what can be filled in or pressed."""
+    frame_hovered: Colour
+    frame_active: Colour
+    border: Colour
+    ink: Colour
+    """White or black: what a thing is covered with, thinly, to set it off from its ground."""
+    series: tuple[float, float]
+    """Of a solver's colour: how far it goes towards `ink`, and how much further for each one alike."""
+
+    @property
+    def accent_dim(self) -> Colour:
+        """The accent as a ground under text."""
+        return (*self.accent[:3], 0.38)
+
+
+THEMES: dict[ThemeName, Theme] = {
+    "dark": Theme(
+        accent=(0.98, 0.62, 0.24, 1.0),
+        warning=(0.97, 0.47, 0.43, 1.0),
+        text=(0.90, 0.90, 0.91, 1.0),
+        text_dim=(0.65, 0.66, 0.69, 1.0),
+        panel=(0.125, 0.129, 0.141, 1.0),
+        bar=(0.07, 0.072, 0.08, 1.0),
+        popup=(0.105, 0.109, 0.12, 1.0),
+        frame=(0.185, 0.191, 0.208, 1.0),
+        frame_hovered=(0.235, 0.243, 0.264, 1.0),
+        frame_active=(0.285, 0.295, 0.320, 1.0),
+        border=(0.07, 0.072, 0.08, 1.0),
+        ink=(1.0, 1.0, 1.0, 1.0),
+        series=(0.3, 0.25),
+    ),
+    "light": Theme(
+        accent=(0.66, 0.28, 0.0, 1.0),
+        warning=(0.72, 0.09, 0.09, 1.0),
+        text=(0.11, 0.115, 0.13, 1.0),
+        text_dim=(0.33, 0.34, 0.37, 1.0),
+        panel=(0.925, 0.927, 0.935, 1.0),
+        bar=(0.885, 0.888, 0.897, 1.0),
+        popup=(0.97, 0.971, 0.976, 1.0),
+        frame=(0.85, 0.855, 0.868, 1.0),
+        frame_hovered=(0.81, 0.817, 0.835, 1.0),
+        frame_active=(0.765, 0.773, 0.795, 1.0),
+        border=(0.72, 0.727, 0.745, 1.0),
+        ink=(0.0, 0.0, 0.0, 1.0),
+        series=(0.4, 0.15),
+    ),
+}
+"""Text has a contrast of at least 4.5 on all that it stands on (WCAG AA); a test computes it."""
+
+PICTURE = THEMES["dark"]
+"""Of what stands over the picture.  The studio wall is dark in every theme: so that a face is always judged
+before the same ground."""
+VEIL = 0.72
+"""Opacity of grounds over the picture."""
 
 FONT_SIZE = 15.0
 """Height of text in pixels at 1x scale."""
-
 
 _SPACING = {
     "window_padding": (10, 8),
@@ -53,7 +114,7 @@ _SIZES = {
 }
 
 
-def apply_theme(ui_scale: float) -> None:
+def apply_theme(theme: Theme, ui_scale: float) -> None:
     """Load the font and set every colour and spacing for a scale (2 on a HiDPI screen)."""
     io = imgui.get_io()
     if not io.fonts.fonts:
@@ -68,63 +129,70 @@ def apply_theme(ui_scale: float) -> None:
     style.window_menu_button_position = imgui.Dir.none
     style.disabled_alpha = 0.45
     colours = {
-        imgui.Col_.text: TEXT,
-        imgui.Col_.text_disabled: TEXT_DIM,
-        imgui.Col_.window_bg: PANEL,
+        imgui.Col_.text: theme.text,
+        imgui.Col_.text_disabled: theme.text_dim,
+        imgui.Col_.window_bg: theme.panel,
         imgui.Col_.child_bg: (0, 0, 0, 0),
-        imgui.Col_.popup_bg: (0.105, 0.109, 0.12, 0.98),
-        imgui.Col_.border: BORDER,
-        imgui.Col_.frame_bg: FRAME,
-        imgui.Col_.frame_bg_hovered: FRAME_HOVERED,
-        imgui.Col_.frame_bg_active: FRAME_ACTIVE,
-        imgui.Col_.title_bg: BORDER,
-        imgui.Col_.title_bg_active: BORDER,
-        imgui.Col_.menu_bar_bg: (0.095, 0.098, 0.107, 1.0),
+        imgui.Col_.popup_bg: theme.popup,
+        imgui.Col_.border: theme.border,
+        imgui.Col_.frame_bg: theme.frame,
+        imgui.Col_.frame_bg_hovered: theme.frame_hovered,
+        imgui.Col_.frame_bg_active: theme.frame_active,
+        imgui.Col_.title_bg: theme.bar,
+        imgui.Col_.title_bg_active: theme.bar,
+        imgui.Col_.menu_bar_bg: theme.bar,
         imgui.Col_.scrollbar_bg: (0, 0, 0, 0),
-        imgui.Col_.scrollbar_grab: FRAME_HOVERED,
-        imgui.Col_.scrollbar_grab_hovered: FRAME_ACTIVE,
-        imgui.Col_.scrollbar_grab_active: TEXT_DIM,
-        imgui.Col_.check_mark: ACCENT,
-        imgui.Col_.slider_grab: ACCENT,
-        imgui.Col_.slider_grab_active: ACCENT,
-        imgui.Col_.button: FRAME_HOVERED,
-        imgui.Col_.button_hovered: FRAME_ACTIVE,
-        imgui.Col_.button_active: ACCENT_DIM,
-        imgui.Col_.header: FRAME_HOVERED,
-        imgui.Col_.header_hovered: FRAME_ACTIVE,
-        imgui.Col_.header_active: ACCENT_DIM,
-        imgui.Col_.separator: (1, 1, 1, 0.07),
-        imgui.Col_.separator_hovered: ACCENT_DIM,
-        imgui.Col_.separator_active: ACCENT,
-        imgui.Col_.tab: BORDER,
-        imgui.Col_.tab_hovered: FRAME_ACTIVE,
-        imgui.Col_.tab_selected: PANEL,
-        imgui.Col_.tab_selected_overline: ACCENT,
-        imgui.Col_.tab_dimmed: BORDER,
-        imgui.Col_.tab_dimmed_selected: PANEL,
+        imgui.Col_.scrollbar_grab: theme.frame_hovered,
+        imgui.Col_.scrollbar_grab_hovered: theme.frame_active,
+        imgui.Col_.scrollbar_grab_active: theme.text_dim,
+        imgui.Col_.check_mark: theme.accent,
+        imgui.Col_.slider_grab: theme.accent,
+        imgui.Col_.slider_grab_active: theme.accent,
+        imgui.Col_.button: theme.frame_hovered,
+        imgui.Col_.button_hovered: theme.frame_active,
+        imgui.Col_.button_active: theme.accent_dim,
+        imgui.Col_.header: theme.frame_hovered,
+        imgui.Col_.header_hovered: theme.frame_active,
+        imgui.Col_.header_active: theme.accent_dim,
+        imgui.Col_.separator: tinted(theme.ink, 0.1),
+        imgui.Col_.separator_hovered: theme.accent_dim,
+        imgui.Col_.separator_active: theme.accent,
+        imgui.Col_.tab: theme.bar,
+        imgui.Col_.tab_hovered: theme.frame_active,
+        imgui.Col_.tab_selected: theme.panel,
+        imgui.Col_.tab_selected_overline: theme.accent,
+        imgui.Col_.tab_dimmed: theme.bar,
+        imgui.Col_.tab_dimmed_selected: theme.panel,
         imgui.Col_.tab_dimmed_selected_overline: (0, 0, 0, 0),
-        imgui.Col_.docking_preview: ACCENT_DIM,
+        imgui.Col_.docking_preview: theme.accent_dim,
         imgui.Col_.docking_empty_bg: (0, 0, 0, 0),
-        imgui.Col_.text_selected_bg: ACCENT_DIM,
-        imgui.Col_.nav_cursor: ACCENT_DIM,
-        imgui.Col_.plot_histogram: ACCENT,
+        imgui.Col_.text_selected_bg: theme.accent_dim,
+        imgui.Col_.nav_cursor: theme.accent_dim,
+        imgui.Col_.plot_histogram: theme.accent,
         imgui.Col_.resize_grip: (0, 0, 0, 0),
-        imgui.Col_.resize_grip_hovered: ACCENT_DIM,
-        imgui.Col_.resize_grip_active: ACCENT,
+        imgui.Col_.resize_grip_hovered: theme.accent_dim,
+        imgui.Col_.resize_grip_active: theme.accent,
     }
     for index, colour in colours.items():
         style.set_color_(index, imgui.ImVec4(*colour))
 
 
-def pane_colours(keys: Sequence[str]) -> list[Colour]:
-    """Return one colour per pane: its solver's, paler where the same solver came before."""
+def pane_colours(theme: Theme, keys: Sequence[str]) -> list[Colour]:
+    """Return one colour per pane: its solver's, further off where the same solver came before."""
+    first, more = theme.series
+    ink = theme.ink[0]
     colours: list[Colour] = []
     for at, key in enumerate(keys):
-        code = INKS[key].colour if key in INKS else "#ffffff"
-        paler = 0.3 + 0.25 * list(keys[:at]).count(key)  # the chart colours are made for white paper
+        code = INKS[key].colour if key in INKS else "#888888"
+        share = min(first + more * list(keys[:at]).count(key), 0.9)
         r, g, b = (int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
-        colours.append((r + (1 - r) * paler, g + (1 - g) * paler, b + (1 - b) * paler, 1.0))
+        colours.append((r + (ink - r) * share, g + (ink - g) * share, b + (ink - b) * share, 1.0))
     return colours
+
+
+def tinted(colour: Colour, opacity: float) -> Colour:
+    """Return a colour with another opacity."""
+    return (*colour[:3], opacity)
 
 
 def packed(colour: Colour, alpha: float = 1.0) -> int:

@@ -1,16 +1,25 @@
 """What is shown and how: the part of the state that undo leaves alone."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from typing import Literal
 
 from facepin.core.pose import Freedom
+from facepin.core.quality import Quality
 from facepin.core.shading import MODES, Shading
+from facepin.panels.guide import Guide
+from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights import WeightsView
-
-Quality = Literal["auto", "always", "off"]
-
+from facepin.session.navigation import PRESETS, Habit
+from facepin.session.solving import SolverChoice
 
 Ghost = Literal["none", "neutral", "reference"]
+
+
+FREEDOMS: dict[Freedom, str] = {
+    "space": "Hold in space (x, y and z)",
+    "screen": "Hold on screen (depth free)",
+}
 
 
 @dataclass
@@ -23,6 +32,8 @@ class PaneView:
     ghost: Ghost = "none"
     """Another pose that shines through."""
 
+    choices: dict[str, SolverChoice] = field(default_factory=dict)
+    """Solvers that were in use here, by key: coming back to one finds its settings."""
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 
@@ -69,14 +80,19 @@ class PaneView:
 
 
 @dataclass
+class PaletteView:
+    """The command palette while it is open."""
+
+    query: str = ""
+    row: int = 0
+    """Which of the fitting actions is chosen."""
+    fresh: bool = True
+    """It was opened just now."""
+
+
+@dataclass
 class View:
     """Toggles that panels change in place."""
-
-    QUALITIES: ClassVar[dict[Quality, str]] = {
-        "auto": "When the picture rests, or always with a GPU",
-        "always": "Always",
-        "off": "Never",
-    }
 
     weights: WeightsView = field(default_factory=WeightsView)
     freedom: Freedom = "space"
@@ -94,3 +110,65 @@ class View:
     """Whether the chart window is open."""
     linked: bool = True
     """One camera for all panes."""
+    theme_name: ThemeName = "dark"
+    habit: Habit = "facepin"
+    """Whose mouse and keys the user knows."""
+    palette: PaletteView | None = None
+    lately: tuple[str, ...] = ()
+    """Titles of what was chosen in the command palette, newest first."""
+    keyboard: bool = False
+    """Whether the keyboard map is shown."""
+    about: bool = False
+    guide: Guide = field(default_factory=Guide)
+
+    @property
+    def theme(self) -> Theme:
+        """The colours of all panels."""
+        return THEMES[self.theme_name]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """An attribute of the View with a few values: a submenu, and a line each in the command palette."""
+
+    title: str
+    values: Mapping[object, str]
+    help: str
+
+
+CHOICES: dict[str, Choice] = {
+    "theme_name": Choice(
+        "Theme", {"dark": "Dark", "light": "Light"}, "Dark or light mode of menus and panels."
+    ),
+    "habit": Choice(
+        "Mouse and keys",
+        {habit: preset.title for habit, preset in PRESETS.items()},
+        "Moves the camera as your other program does, with its keys where they differ.",
+    ),
+    "ui_scale": Choice(
+        "Interface size",
+        {factor: f"{factor:.0%}" for factor in (0.8, 1.0, 1.25, 1.5, 2.0)},
+        "Size of text and panels, times what the screen asks for.",
+    ),
+    "quality": Choice(
+        "Quality",
+        {
+            "auto": "Automatic (fast in motion without a GPU)",
+            "fast": "Fast (light at vertices)",
+            "good": "Good (light at pixels, edges 4x smooth)",
+            "best": "Best (light at pixels, edges 8x smooth)",
+        },
+        "How smooth light and edges of the picture are; better costs time where there is no GPU.",
+    ),
+    "freedom": Choice(
+        "New pins",
+        {freedom: title for freedom, title in FREEDOMS.items()},
+        "Whether the next pin holds its depth too.",
+    ),
+    "linked": Choice(
+        "Cameras",
+        {True: "One for all panes", False: "One per pane"},
+        "Whether several panes are looked at from the same side.",
+    ),
+}
+"""What the menus and the command palette can set."""

@@ -8,10 +8,11 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
+from facepin.core.control import ShapeControl
 from facepin.core.measures import active as active_shapes
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.panels.theme import ACCENT, FRAME, TEXT, TEXT_DIM, WARNING, Colour, packed, pane_colours
+from facepin.panels.theme import Colour, Theme, packed, pane_colours, tinted
 from facepin.session.edit import Edit
 from facepin.session.session import Pane
 
@@ -32,7 +33,15 @@ class WeightsView:
 
 
 def weights_panel(
-    rig: Rig, panes: Sequence[Pane], active: int, view: WeightsView, scale: float, *, in_gesture: bool
+    rig: Rig,
+    control: ShapeControl,
+    panes: Sequence[Pane],
+    active: int,
+    view: WeightsView,
+    scale: float,
+    theme: Theme,
+    *,
+    in_gesture: bool,
 ) -> Edit | None:
     """Draw one slider per shape; return the change of weights the user makes in this frame, or None.
 
@@ -40,6 +49,8 @@ def weights_panel(
     ----------
     rig : Rig
         Its shapes are listed.
+    control : ShapeControl
+        Their limits.
     panes : sequence of Pane
         One bar each; with several, a shape's bars stand one under the other in the panes' colours.
     active : int
@@ -48,11 +59,15 @@ def weights_panel(
         Search and order, changed in place.
     scale : float
         Pixels per pixel of a 1x screen.
+    theme : Theme
+        Colours.
     in_gesture : bool
         Whether a drag or a slider is being moved.
     """
     pose = panes[active].pose
-    colours = [ACCENT] if len(panes) == 1 else pane_colours([pane.choice.kind.key for pane in panes])
+    colours = (
+        [theme.accent] if len(panes) == 1 else pane_colours(theme, [pane.choice.kind.key for pane in panes])
+    )
     poses = [pane.pose.weights for pane in panes]
     edit = _head(rig, pose, view)
     rows = _rows(rig, pose.weights, view, in_gesture)
@@ -64,11 +79,12 @@ def weights_panel(
         room = imgui.get_content_region_avail().x
         widest = max(imgui.calc_text_size(rig.shape_names[j]).x for j in _samples(rig))
         names = min(widest + 10 * scale, room * 0.5)
+        limits = control.limits_at(pose.weights)
         clipper = imgui.ListClipper()
         clipper.begin(len(rows))
         while clipper.step():
             for row in range(clipper.display_start, clipper.display_end):
-                edit = _row(rig, pose, rows[row], names, scale, poses, colours) or edit
+                edit = _row(rig, pose, limits, rows[row], names, scale, poses, colours, theme) or edit
     imgui.end_child()
     return edit
 
@@ -114,22 +130,24 @@ def _rows(rig: Rig, weights: Floats, view: WeightsView, in_gesture: bool) -> tup
 def _row(
     rig: Rig,
     pose: Pose,
+    limits: Floats,
     j: int,
     names: float,
     scale: float,
     poses: Sequence[Floats],
     colours: Sequence[Colour],
+    theme: Theme,
 ) -> Edit | None:
     """Draw name, slider and number of one shape, with a bar for each pane."""
     weight = float(pose.weights[j])
-    low, high = (float(limit) for limit in rig.limits[j])
+    low, high = (float(limit) for limit in limits[j])
     outside = not low - VISIBLE <= weight <= high + VISIBLE
     visible = abs(weight) > VISIBLE
     name = rig.shape_names[j]
     imgui.push_id(j)
     left = imgui.get_cursor_screen_pos()
     height = imgui.get_frame_height()
-    colour = TEXT if visible else TEXT_DIM
+    colour = theme.text if visible else theme.text_dim
     draw = imgui.get_window_draw_list()
     draw.push_clip_rect(left, imgui.ImVec2(left.x + names - 6 * scale, left.y + height), True)
     draw.add_text(imgui.ImVec2(left.x, left.y + imgui.get_style().frame_padding.y), packed(colour), name)
@@ -144,13 +162,13 @@ def _row(
     width = imgui.get_content_region_avail().x
     at = imgui.get_cursor_screen_pos()
     if len(values) == 1 and outside:
-        colours = [WARNING]
-    _bars(draw, at, width, height, (low, high), values, colours, scale)
+        colours = [theme.warning]
+    _bars(draw, at, width, height, (low, high), values, colours, scale, theme)
     imgui.set_next_item_width(width)
     for index in (imgui.Col_.frame_bg, imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
         imgui.push_style_color(index, imgui.ImVec4(0, 0, 0, 0))
-    imgui.push_style_color(imgui.Col_.frame_bg_hovered, imgui.ImVec4(1, 1, 1, 0.06))
-    imgui.push_style_color(imgui.Col_.frame_bg_active, imgui.ImVec4(1, 1, 1, 0.09))
+    imgui.push_style_color(imgui.Col_.frame_bg_hovered, imgui.ImVec4(*tinted(theme.ink, 0.06)))
+    imgui.push_style_color(imgui.Col_.frame_bg_active, imgui.ImVec4(*tinted(theme.ink, 0.09)))
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f" if visible else "0.00")
     imgui.pop_style_color(6)
@@ -177,6 +195,7 @@ def _bars(
     values: Sequence[float],
     colours: Sequence[Colour],
     scale: float,
+    theme: Theme,
 ) -> None:
     """Draw the slider's trough, and in it a bar from zero to each value."""
     low, high = limits
@@ -187,7 +206,7 @@ def _bars(
     inset = 2 * scale
     top, bottom = at.y + inset, at.y + height - inset
     draw.add_rect_filled(
-        imgui.ImVec2(at.x, top), imgui.ImVec2(at.x + width, bottom), packed(FRAME), 3 * scale
+        imgui.ImVec2(at.x, top), imgui.ImVec2(at.x + width, bottom), packed(theme.frame), 3 * scale
     )
     zero = x(min(max(0.0, low), high))
     step = (bottom - top) / len(values)
@@ -203,4 +222,4 @@ def _bars(
             imgui.ImVec2(end - scale, above), imgui.ImVec2(end + scale, below), packed(colour), scale
         )
     if low < -VISIBLE:
-        draw.add_line(imgui.ImVec2(zero, top), imgui.ImVec2(zero, bottom), packed(TEXT_DIM, 0.6), scale)
+        draw.add_line(imgui.ImVec2(zero, top), imgui.ImVec2(zero, bottom), packed(theme.text_dim, 0.6), scale)

@@ -1,8 +1,9 @@
-"""Moving the camera with the mouse: the habits of Maya and of Blender, as one table."""
+"""Moving the camera with the mouse: our own habits, those of Maya and those of Blender, as tables."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import pi
+from typing import Literal
 
 from facepin.core.camera import Camera, Viewport
 from facepin.core.events import (
@@ -17,6 +18,8 @@ from facepin.core.events import (
 
 Motion = Callable[[Camera, float, float, Viewport], Camera]
 """(camera, dx, dy in pixels, viewport) -> camera."""
+Motions = dict[tuple[Button, Modifiers], Motion]
+"""What a drag with a button does."""
 
 
 def orbit(camera: Camera, dx: float, dy: float, viewport: Viewport) -> Camera:
@@ -35,20 +38,48 @@ def dolly(camera: Camera, dx: float, dy: float, viewport: Viewport) -> Camera:
     return camera.zoomed(1.006 ** (dx - dy))
 
 
-MOTIONS: dict[tuple[Button, Modifiers], Motion] = {
-    # Maya
+Habit = Literal["facepin", "maya", "blender"]
+"""Whose way of moving the camera the user's hand knows."""
+
+
+@dataclass(frozen=True)
+class Preset:
+    """One habit: what it is called, and what a drag with a button does."""
+
+    title: str
+    motions: Motions
+    """With Alt wherever the mouse is, else where no pin and no skin is under it."""
+
+
+_ALT: Motions = {
     ("left", Modifiers(alt=True)): orbit,
     ("middle", Modifiers(alt=True)): pan,
     ("right", Modifiers(alt=True)): dolly,
-    # Blender
+}
+_MIDDLE: Motions = {
     ("middle", Modifiers()): orbit,
     ("middle", Modifiers(shift=True)): pan,
     ("middle", Modifiers(control=True)): dolly,
-    # Whoever has neither habit: drag beside the face to turn it, right button to shift it.
+}
+_BESIDE: Motions = {
     ("left", Modifiers()): orbit,
     ("right", Modifiers()): pan,
 }
-"""What a drag with a button does when no pin and no skin is under the mouse (with Alt: wherever it is)."""
+_TWO_BUTTONS: Motions = {
+    ("left", Modifiers(alt=True)): orbit,
+    ("left", Modifiers(shift=True, alt=True)): pan,
+    ("left", Modifiers(control=True, alt=True)): dolly,
+}
+
+PRESETS: dict[Habit, Preset] = {
+    # Drag beside the face to turn it; whoever has one of the other habits finds most of it here too.
+    "facepin": Preset("Facepin", {**_BESIDE, **_MIDDLE, **_ALT}),
+    # The mouse alone belongs to pins and selection, the camera has Alt.
+    "maya": Preset("Maya", _ALT),
+    # The middle button, or Alt and the left one for a mouse or tablet that has no middle.
+    "blender": Preset("Blender", {**_MIDDLE, **_TWO_BUTTONS}),
+}
+"""The wheel comes closer in all of them."""
 
 WHEEL = 1.12
 """Enlargement per step of the wheel."""
@@ -68,11 +99,11 @@ class Navigator:
         """Whether a camera drag is going on: it then gets all pointer events until the release."""
         return self._motion is not None
 
-    def handle(self, event: Event, camera: Camera, viewport: Viewport) -> Camera:
+    def handle(self, event: Event, camera: Camera, viewport: Viewport, preset: Preset) -> Camera:
         """Take one event in a viewport; return the camera after it (the same object when nothing moved)."""
         match event:
             case PointerPressed(x, y, button, modifiers) if self._motion is None:
-                self._motion = MOTIONS.get((button, modifiers))
+                self._motion = preset.motions.get((button, modifiers))
                 self._button, self._at, self._viewport = button, (x, y), viewport
             case PointerMoved(x, y) if self._motion is not None:
                 dx, dy = x - self._at[0], y - self._at[1]

@@ -5,6 +5,9 @@ import numpy as np
 from facepin.core.arrays import Floats
 from facepin.core.rig import Rig
 
+RANDOM_SHAPES = (1, 2, 4, 8, 12)
+"""Sizes of random reference poses on offer."""
+
 
 def random_reference(rig: Rig, shapes: int, random: np.random.Generator) -> Floats:
     """Return weights (k,) of some shapes, uniform in 0.4 .. 1, the others 0: as the study draws its poses."""

@@ -1,0 +1,142 @@
+"""The command palette, typed into."""
+
+from pathlib import Path
+
+import pytest
+from imgui_bundle import imgui
+
+from driver import App, running
+from facepin.actions import carry_out
+from facepin.core.events import KeyPressed, Modifiers, PointerMoved
+from facepin.panels.availability import why_not
+from facepin.panels.palette import entries, ranked
+from facepin.panels.requests import Choose, Command, Request
+from facepin.panels.view import CHOICES, View
+
+CALL = KeyPressed("p", Modifiers(control=True))
+
+
+def typed(app: App, text: str) -> None:
+    imgui.get_io().add_input_characters_utf8(text)
+    app.step(PointerMoved(5, 5), frames=3)
+
+
+def key(app: App, key: imgui.Key) -> None:
+    imgui.get_io().add_key_event(key, True)
+    app.step(PointerMoved(5, 5), frames=2)
+    imgui.get_io().add_key_event(key, False)
+    app.step(PointerMoved(6, 5), frames=2)
+
+
+def called(app: App, text: str = "") -> None:
+    app.step(CALL, frames=4)
+    assert app.desk.view.palette is not None
+    if text:
+        typed(app, text)
+
+
+def test_type_some_letters_and_press_enter() -> None:
+    with running() as app:
+        called(app, "wf")
+        key(app, imgui.Key.enter)
+        assert app.desk.view.palette is None
+        assert app.desk.view.panes[0].wireframe
+        # What was done lately comes first.
+        called(app)
+        key(app, imgui.Key.enter)
+        assert not app.desk.view.panes[0].wireframe
+        assert app.desk.view.lately == ("Wireframe",)
+
+
+def test_arrows_choose_and_escape_leaves() -> None:
+    with running() as app:
+        called(app, "theme")
+        key(app, imgui.Key.down_arrow)
+        key(app, imgui.Key.up_arrow)
+        key(app, imgui.Key.up_arrow)  # round to the last
+        key(app, imgui.Key.down_arrow)
+        key(app, imgui.Key.escape)
+        assert app.desk.view.palette is None
+        assert app.desk.view.theme_name == "dark"
+        called(app, "theme light")
+        key(app, imgui.Key.enter)
+        assert app.desk.view.theme_name == "light"
+
+
+def test_letters_typed_into_it_are_no_shortcuts_and_a_click_beside_it_closes_it() -> None:
+    with running() as app:
+        called(app)
+        app.step(KeyPressed("h"), frames=2)
+        assert app.desk.view.panes[0].shading == "studio"
+        app.press(100, 600)
+        app.release(100, 600)
+        assert app.desk.view.palette is None
+
+
+def test_what_can_not_be_done_says_why_and_is_not_done() -> None:
+    with running() as app:
+        called(app, "undo")
+        key(app, imgui.Key.enter)
+        assert app.desk.view.palette is not None  # it stays, and shows the reason
+        assert app.desk.message == ""
+        assert why_not(Command.UNDO, app.session) == "nothing to undo"
+        assert why_not(Command.UNDO, None) == "no face is open"
+        assert why_not(Command.OPEN_FILE, None) == ""
+
+
+def test_a_click_chooses() -> None:
+    with running() as app:
+        called(app, "heat")
+        app.press(640, 109)
+        app.release(640, 109)
+        app.step(frames=2)
+        assert app.desk.view.panes[0].shading == "heat"
+
+
+def test_everything_is_in_it_and_can_be_carried_out(tmp_path: Path) -> None:
+    with running(pictures=tmp_path) as app:
+        found = entries(app.desk.view, app.session, [tmp_path / "face.npz"])
+        requests = [entry.request for entry in found]
+        assert {command for command in Command if command not in requests} == {Command.PALETTE}
+        assert all(Choose(name, value) in requests for name in CHOICES for value in CHOICES[name].values)
+        assert any(entry.title == "Open face.npz" for entry in found)
+        harmless: list[Request] = [one for one in requests if isinstance(one, Choose)]
+        for request in [*harmless, Command.ABOUT, Command.KEYBOARD, Command.GUIDE]:
+            carry_out(request, app.desk)
+        app.step(PointerMoved(5, 5), frames=3)
+        assert app.desk.message == ""
+
+
+@pytest.mark.parametrize(
+    ("query", "first"),
+    [
+        ("wire", "Wireframe"),
+        ("light", "Theme: Light"),
+        ("dark mode", "Theme: Dark"),
+        ("blender", "Mouse and keys: Blender"),
+        ("pose save", "Save pose…"),
+        ("png", "Save picture"),
+        ("unwanted motion", "Heat map of the move"),
+        ("maya", "Mouse and keys: Maya"),
+    ],
+)
+def test_what_is_meant_comes_first(query: str, first: str) -> None:
+    assert ranked(entries(View(), None, []), query, ())[0][0].title == first
+
+
+def test_nothing_fits_nonsense() -> None:
+    assert ranked(entries(View(), None, []), "qqq", ()) == []
+
+
+def test_of_two_that_fit_alike_the_one_used_lately_comes_first() -> None:
+    found = entries(View(), None, [])
+    plain = [entry.title for entry, _ in ranked(found, "theme", ())]
+    used = [entry.title for entry, _ in ranked(found, "theme", ("Theme: Light",))]
+    assert plain[:2] == ["Theme: Dark", "Theme: Light"]
+    assert used[:2] == ["Theme: Light", "Theme: Dark"]
+
+
+def test_what_was_used_lately_leads_the_whole_list() -> None:
+    lately = ("Wireframe", "Theme: Light")
+    titles = [entry.title for entry, _ in ranked(entries(View(), None, []), "", lately)]
+    assert titles[:3] == [*lately, "Open file…"]

@@ -1,0 +1,70 @@
+"""The steps of picture quality: which one is drawn when, and that what earlier versions remembered counts."""
+
+import json
+from pathlib import Path
+
+import moderngl
+import pytest
+
+from driver import running
+from facepin.core.quality import STEPS, Quality, Step, step
+from facepin.files.preferences import read_preferences
+from facepin.gpu.canvas import Canvases
+from facepin.panels.requests import Choose
+from facepin.stage import Stage
+
+
+def test_automatic_is_fast_only_in_motion_without_a_graphics_card() -> None:
+    for software in (True, False):
+        for moving in (True, False):
+            found = step("auto", software=software, moving=moving)
+            assert found == STEPS["fast" if software and moving else "good"]
+            assert step("best", software=software, moving=moving) == Step(8, fine=True)
+            assert step("fast", software=software, moving=moving) == Step(0, fine=False)
+
+
+def test_there_is_one_canvas_for_each_number_of_samples(gl: moderngl.Context) -> None:
+    canvases = Canvases(gl)
+    assert canvases.of(0).samples == 0
+    assert canvases.of(4) is canvases.of(4)
+    assert canvases.of(10_000) is canvases.of(int(gl.max_samples)), "as far as the machine goes"
+    canvases.release()
+
+
+@pytest.mark.parametrize(
+    ("quality", "at_rest", "in_motion"),
+    [("auto", (4, True), (0, False)), ("fast", (0, False), (0, False)), ("good", (4, True), (4, True))],
+)
+def test_pictures_are_drawn_with_the_step_that_is_chosen(
+    monkeypatch: pytest.MonkeyPatch, quality: Quality, at_rest: tuple[int, bool], in_motion: tuple[int, bool]
+) -> None:
+    drawn: list[tuple[int, bool]] = []
+    plain = Stage.draw
+
+    def noted(stage: Stage, canvas: object, *rest: object, fine: bool, **more: object) -> None:
+        drawn.append((canvas.samples, fine))
+        plain(stage, canvas, *rest, fine=fine, **more)
+
+    monkeypatch.setattr(Stage, "draw", noted)
+    with running(size=(400, 300)) as app:
+        app.ask(Choose("quality", quality))
+        app.step(frames=6)
+        x, y = app.pixel_of(2000)
+        app.press(x, y)
+        app.move(x, y + 6)
+        assert drawn[-1] == in_motion
+        app.release(x, y + 6)
+        app.step(frames=4)
+        assert drawn[-1] == at_rest
+
+
+@pytest.mark.parametrize(
+    ("then", "now"), [("always", "good"), ("off", "fast"), ("auto", "auto"), ("best", "best")]
+)
+def test_what_earlier_versions_remembered_counts(tmp_path: Path, then: str, now: str) -> None:
+    file = tmp_path / "preferences.json"
+    file.write_text(json.dumps({"quality": then}))
+    found, complaint = read_preferences(file)
+    assert (found.quality, complaint) == (now, None)
+    file.write_text(json.dumps({"quality": ["always"]}))
+    assert "quality" in str(read_preferences(file)[1])

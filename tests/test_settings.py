@@ -1,0 +1,88 @@
+"""What is chosen in the menu Settings is followed at once, and remembered."""
+
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from driver import running
+from facepin.core.events import KeyPressed, PointerMoved
+from facepin.files import preferences
+from facepin.main_loop import ICON_SIZES
+from facepin.panels import theme
+from facepin.panels.requests import Choose, Command
+from facepin.panels.theme import THEMES
+from facepin.resources import resource
+from facepin.session import navigation
+
+
+def test_theme_and_habit_are_remembered(tmp_path: Path) -> None:
+    with running(settings_folder=tmp_path) as app:
+        dark = app.screenshot()
+        for choice in (Choose("theme_name", "light"), Choose("habit", "blender")):
+            app.ask(choice)
+        app.step(PointerMoved(5, 5), frames=4)
+        light = app.screenshot()
+        panel = np.round(255 * np.array(THEMES["light"].panel[:3]))
+        np.testing.assert_allclose(light[320, 1000], panel, atol=1)
+        assert dark[320, 1000].max() < 60 < light[320, 1000].min()
+        # The studio wall is the same in both: colours of a face are judged before the same ground.
+        np.testing.assert_array_equal(light[300, 100], dark[300, 100])
+    with running(settings_folder=tmp_path) as app:
+        assert app.desk.view.theme_name == "light"
+        assert app.desk.view.habit == "blender"
+        np.testing.assert_allclose(app.screenshot()[320, 1000], panel, atol=1)
+
+
+def test_a_habit_changes_mouse_and_keys_at_once() -> None:
+    with running() as app:
+        beside = (60.0, 600.0)
+        before = app.desk.camera
+        app.ask(Choose("habit", "maya"))
+        app.drag(beside, (100.0, 600.0))
+        assert app.desk.camera == before
+        app.drag(beside, (100.0, 600.0), alt=True)
+        assert app.desk.camera.yaw != before.yaw
+        app.step(KeyPressed("a"), frames=2)
+        assert app.desk.camera.distance == pytest.approx(before.distance, rel=0.2)
+        app.ask(Choose("habit", "blender"))
+        turned = app.desk.camera
+        app.drag(beside, (100.0, 600.0), "middle")
+        assert app.desk.camera.yaw != turned.yaw
+
+
+def test_preferences_know_the_same_themes_and_habits() -> None:
+    assert set(get_args(preferences.Theme)) == set(get_args(theme.ThemeName)) == set(THEMES)
+    assert set(get_args(preferences.Habit)) == set(get_args(navigation.Habit)) == set(navigation.PRESETS)
+
+
+def test_what_makes_no_sense_in_the_preferences_is_replaced(tmp_path: Path) -> None:
+    file = tmp_path / "preferences.json"
+    file.write_text('{"theme": "pink", "habit": 3, "guide": true, "lately": [1], "ui_scale": 1.5}')
+    found, line = preferences.read_preferences(file)
+    assert found == preferences.Preferences(ui_scale=1.5)
+    assert line is not None
+    for name in ("theme", "habit", "guide", "lately"):
+        assert name in line
+
+
+def test_help_works_before_a_face_is_open(tmp_path: Path) -> None:
+    (tmp_path / "broken.npz").write_text("no rig")
+    with running(tmp_path / "broken.npz") as app:
+        assert app.desk.stage is None
+        for command in (Command.PALETTE, Command.KEYBOARD, Command.ABOUT):
+            app.ask(command)
+            app.step(PointerMoved(5, 5), frames=3)
+        assert app.desk.view.about
+
+
+@pytest.mark.parametrize("size", ICON_SIZES)
+def test_the_icon_is_there_in_every_size(size: int) -> None:
+    picture = Image.open(resource("assets", f"icon/facepin-{size}.png"))
+    assert picture.size == (size, size)
+    pixels = np.asarray(picture.convert("RGBA"), np.int64)
+    assert pixels[0, 0, 3] < 10  # round corners
+    red, _, blue, _ = pixels.reshape(-1, 4).T
+    assert 0.01 < np.mean(red - blue > 120) < 0.2  # the orange pin

@@ -7,9 +7,9 @@ import moderngl
 import pytest
 
 from driver import running
-from facepin.core.quality import STEPS, Quality, Step, step
+from facepin.core.quality import STEPS, Step, step
 from facepin.files.preferences import read_preferences
-from facepin.gpu.canvas import Canvases
+from facepin.gpu.canvas import Canvas, Canvases
 from facepin.panels.requests import Choose
 from facepin.stage import Stage
 
@@ -31,31 +31,30 @@ def test_there_is_one_canvas_for_each_number_of_samples(gl: moderngl.Context) ->
     canvases.release()
 
 
-@pytest.mark.parametrize(
-    ("quality", "at_rest", "in_motion"),
-    [("auto", (4, True), (0, False)), ("fast", (0, False), (0, False)), ("good", (4, True), (4, True))],
-)
-def test_pictures_are_drawn_with_the_step_that_is_chosen(
-    monkeypatch: pytest.MonkeyPatch, quality: Quality, at_rest: tuple[int, bool], in_motion: tuple[int, bool]
-) -> None:
+def test_pictures_are_drawn_with_the_step_that_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[tuple[int, bool]] = []
     plain = Stage.draw
 
-    def noted(stage: Stage, canvas: object, *rest: object, fine: bool, **more: object) -> None:
+    def noted(stage: Stage, canvas: Canvas, *rest: object, fine: bool, **more: object) -> None:
         drawn.append((canvas.samples, fine))
         plain(stage, canvas, *rest, fine=fine, **more)
 
     monkeypatch.setattr(Stage, "draw", noted)
+    rough, smooth = (0, False), (4, True)
     with running(size=(400, 300)) as app:
-        app.ask(Choose("quality", quality))
-        app.step(frames=6)
-        x, y = app.pixel_of(2000)
-        app.press(x, y)
-        app.move(x, y + 6)
-        assert drawn[-1] == in_motion
-        app.release(x, y + 6)
-        app.step(frames=4)
-        assert drawn[-1] == at_rest
+        for quality, at_rest, in_motion in (
+            ("auto", smooth, rough),
+            ("fast", rough, rough),
+            ("good", smooth, smooth),
+        ):
+            app.ask(Choose("quality", quality))
+            x, y = app.pixel_of(2000)
+            app.press(x, y)
+            app.move(x, y + 6)
+            assert drawn[-1] == in_motion
+            app.release(x, y + 6)
+            app.step(frames=4)
+            assert drawn[-1] == at_rest
 
 
 @pytest.mark.parametrize(

@@ -53,6 +53,6 @@ vec3 studio(vec3 n, vec3 to_eye, vec3 albedo, float open, vec3 towards)
     vec3 shine = reflects * (KEY_LIGHT * glint.x + FILL_LIGHT * glint.y);
     float edge = 1.0 - nv, edge2 = edge * edge;
     float fresnel = reflects + (1.0 - reflects) * edge2 * edge2 * edge;
-    shine += around * (fresnel * (1.0 - 0.75 * roughness) * open);
+    shine += around * (fresnel * (1.0 - roughness) * (1.0 - roughness) * open);
     return albedo * diffuse + shine;
 }

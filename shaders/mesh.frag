@@ -20,6 +20,14 @@ in vec2 place_in_texture;
 out vec4 pixel;
 
 #ifdef WET
+// How open to the room an eye is.  It turns under its lids while their shadow stays where they are, so it is told
+// by where the surface faces.
+float opening_of_eye(vec3 n)
+{
+    float upper = smoothstep(-0.1, 0.65, n.y), lower = smoothstep(0.4, 0.95, -n.y), side = smoothstep(0.45, 0.95, abs(n.x));
+    return (1.0 - 0.58 * upper) * (1.0 - 0.20 * lower) * (1.0 - 0.25 * side);
+}
+
 // A window pane seen in something wet: x and y across it, 1 at its edges.
 float pane(vec2 at, float soft)
 {
@@ -58,9 +66,12 @@ void main()
 {
     vec3 to_eye = normalize(camera * vec3(-(gl_FragCoord.xy * ray_of_pixel.xy + ray_of_pixel.zw), 1.0));
     vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
-    vec3 light = studio(n, to_eye, painted(), base.a, opening);
 #ifdef WET
-    light += mirrored_lamps(n, to_eye, lamps_seen(base.a, opening));
+    float open = opening_of_eye(n);
+    vec3 light = studio(n, to_eye, painted(), open, vec3(0.0));
+    light += mirrored_lamps(n, to_eye, lamps_seen(open, vec3(0.0)));
+#else
+    vec3 light = studio(n, to_eye, painted(), base.a, opening);
 #endif
     pixel = vec4(picture(light), 1.0);
 }

@@ -102,8 +102,9 @@ def test_the_saved_picture_is_the_pane_without_its_pins(shown: Shown) -> None:
 
 
 def test_a_drag_over_still_parts_looks_like_the_pose_alone(gl: moderngl.Context) -> None:
-    views = [PaneView()] * 3 + [PaneView(shading="heat")] * 2 + [PaneView()] * 2
-    steps = [(0.3 + 0.05 * step, view) for step, view in enumerate(views)]
+    shadings = ["studio"] * 3 + ["heat"] * 2 + ["clay"] * 3 + ["normals"] * 3 + ["studio"] * 2
+    views = [PaneView(shading=shading) for shading in shadings]
+    steps = [(0.3 + 0.03 * step, view) for step, view in enumerate(views)]
     dragged, fresh = Shown(gl), []
     for weight, view in steps:
         alone = Shown(gl)

@@ -5,7 +5,7 @@ Each has `act(request, desk)`, which does what was asked and says whether it was
 
 from collections.abc import Callable
 
-from facepin.actions import comparing, files, helping, pinning, posing, viewing
+from facepin.actions import comparing, files, helping, mirroring, pinning, posing, viewing
 from facepin.desk import Desk
 from facepin.panels.requests import Request
 
@@ -13,6 +13,7 @@ TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
     files.act,
     posing.act,
     pinning.act,
+    mirroring.act,
     comparing.act,
     viewing.act,
     helping.act,

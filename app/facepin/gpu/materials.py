@@ -35,7 +35,7 @@ class Material:
 CLAY = Material((0.47, 0.45, 0.435), Part.roughness, (0.20, 0.17, 0.15))
 """What says nothing about itself."""
 
-FLESH: Colour = (0.42, 0.21, 0.13)
+FLESH: Colour = (0.36, 0.19, 0.125)
 """Scatter of skin, and of what is softer still."""
 SKIN = replace(CLAY, scatter=FLESH, reflects=0.028)
 

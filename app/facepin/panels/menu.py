@@ -76,6 +76,10 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         asked = _item(view, Command.CLEAR_PINS, bool(pins)) or asked
         asked = _item(view, Command.RESET_POSE) or asked
         imgui.separator()
+        asked = _item(view, Command.SYMMETRY, selected=view.symmetric) or asked
+        for command in (Command.FLIP_POSE, Command.MIRROR_LEFT, Command.MIRROR_RIGHT):
+            asked = _item(view, command) or asked
+        imgui.separator()
         asked = _choices(view, "freedom") or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
@@ -159,10 +163,19 @@ def pin_menu(pin: Pin) -> SetPin | None:
     return request
 
 
-def _item(view: View, command: Command, enabled: bool = True, detail: str | None = None) -> Command | None:
+def _item(
+    view: View,
+    command: Command,
+    enabled: bool = True,
+    detail: str | None = None,
+    *,
+    selected: bool = False,
+) -> Command | None:
     """Draw the item of a command, with its key and what it does."""
     title = f"{command.title}: {detail}" if detail else command.title
-    chosen = imgui.menu_item_simple(title, key_of(command, view.habit) or None, enabled=enabled)
+    chosen = imgui.menu_item_simple(
+        title, key_of(command, view.habit) or None, selected=selected, enabled=enabled
+    )
     if command.help:
         imgui.set_item_tooltip(command.help)
     return command if chosen else None

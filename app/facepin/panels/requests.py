@@ -53,6 +53,25 @@ class Command(Enum):
     UNDO = "Undo", ("Ctrl+Z",), "Edit", "Takes the last change back; a whole drag is one step."
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Edit", "Brings back what was undone."
     RESET_POSE = "Reset the pose", ("Home",), "Edit", "All weights to zero; pins stay on their points."
+    SYMMETRY = (
+        "Symmetry",
+        ("M",),
+        "Edit",
+        "A pin makes a twin across the face and drags it along; sliders of left and right move together.",
+    )
+    FLIP_POSE = "Flip the pose", ("Ctrl+M",), "Edit", "Left does what right did, and right what left did."
+    MIRROR_LEFT = (
+        "Mirror left to right",
+        ("Shift+M",),
+        "Edit",
+        "The character's right side does what its left does.",
+    )
+    MIRROR_RIGHT = (
+        "Mirror right to left",
+        (),
+        "Edit",
+        "The character's left side does what its right does.",
+    )
     DELETE_PINS = "Remove selected pins", ("Delete", "Backspace"), "Pins", "The pose stays as it is."
     CLEAR_PINS = "Remove all pins", (), "Pins", "Frees every point; the pose stays as it is."
     FRAME = "Frame the face", ("F",), "View", "Brings the whole face into the picture."
@@ -259,6 +278,14 @@ class Choose:
 
 
 @dataclass(frozen=True)
+class PairShapes:
+    """Take two shapes for each other's mirror image; None parts a shape from its twin."""
+
+    shape: int
+    twin: int | None
+
+
+@dataclass(frozen=True)
 class CancelLoading:
     """Give up opening a file."""
 
@@ -273,6 +300,7 @@ Request = (
     | KeepPane
     | RandomReference
     | SetPin
+    | PairShapes
     | Choose
     | CancelLoading
 )

@@ -97,6 +97,8 @@ class View:
     weights: WeightsView = field(default_factory=WeightsView)
     freedom: Freedom = "space"
     """What new pins constrain."""
+    symmetric: bool = False
+    """Whether pins and sliders move their twins on the other side."""
     quality: Quality = "auto"
     ui_scale: float = 1.0
     """Size of text and panels, times what the screen asks for."""

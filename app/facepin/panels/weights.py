@@ -1,6 +1,6 @@
 """The weights panel: the slider interface of the paper's Figure 3, live while the face is dragged."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -50,7 +50,7 @@ def weights_panel(
     rig : Rig
         Its shapes are listed.
     control : ShapeControl
-        Their limits.
+        Their limits and ties.
     panes : sequence of Pane
         One bar each; with several, a shape's bars stand one under the other in the panes' colours.
     active : int
@@ -79,12 +79,15 @@ def weights_panel(
         room = imgui.get_content_region_avail().x
         widest = max(imgui.calc_text_size(rig.shape_names[j]).x for j in _samples(rig))
         names = min(widest + 10 * scale, room * 0.5)
-        limits = control.limits_at(pose.weights)
+        tied = {a: (rig.shape_names[b], control.limits_at(pose.weights)[a, 1]) for a, b in control.ties}
         clipper = imgui.ListClipper()
         clipper.begin(len(rows))
         while clipper.step():
             for row in range(clipper.display_start, clipper.display_end):
-                edit = _row(rig, pose, limits, rows[row], names, scale, poses, colours, theme) or edit
+                edit = (
+                    _row(rig, pose, control.limits, tied, rows[row], names, scale, poses, colours, theme)
+                    or edit
+                )
     imgui.end_child()
     return edit
 
@@ -131,6 +134,7 @@ def _row(
     rig: Rig,
     pose: Pose,
     limits: Floats,
+    tied: Mapping[int, tuple[str, float]],
     j: int,
     names: float,
     scale: float,
@@ -138,10 +142,14 @@ def _row(
     colours: Sequence[Colour],
     theme: Theme,
 ) -> Edit | None:
-    """Draw name, slider and number of one shape, with a bar for each pane."""
+    """Draw name, slider and number of one shape, with a bar for each pane.
+
+    `tied` has, for a shape that another one limits, the name of that and the highest weight it leaves.
+    """
     weight = float(pose.weights[j])
     low, high = (float(limit) for limit in limits[j])
-    outside = not low - VISIBLE <= weight <= high + VISIBLE
+    other, most = tied.get(j, ("", high))
+    outside = not low - VISIBLE <= weight <= most + VISIBLE
     visible = abs(weight) > VISIBLE
     name = rig.shape_names[j]
     imgui.push_id(j)
@@ -154,7 +162,8 @@ def _row(
     draw.pop_clip_rect()
     imgui.invisible_button("name", imgui.ImVec2(names - 6 * scale, height))
     reset = imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0)
-    imgui.set_item_tooltip(f"{name}\nDouble click: back to 0\nCtrl+click the slider: type a number")
+    tie = f"\nGoes as far as {other} does, to {most:.2f} now" if other else ""
+    imgui.set_item_tooltip(f"{name}{tie}\nDouble click: back to 0\nCtrl+click the slider: type a number")
     imgui.same_line(names)
     # The range opens up for a weight outside its limits: nothing is clipped just by being shown.
     values = [float(weights[j]) for weights in poses]
@@ -163,7 +172,8 @@ def _row(
     at = imgui.get_cursor_screen_pos()
     if len(values) == 1 and outside:
         colours = [theme.warning]
-    _bars(draw, at, width, height, (low, high), values, colours, scale, theme)
+    tie_mark = most if other else None
+    _bars(draw, at, width, height, (low, high), tie_mark, values, colours, scale, theme)
     imgui.set_next_item_width(width)
     for index in (imgui.Col_.frame_bg, imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
         imgui.push_style_color(index, imgui.ImVec4(0, 0, 0, 0))
@@ -172,6 +182,8 @@ def _row(
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     changed, value = imgui.slider_float("##weight", weight, low, high, "%.2f" if visible else "0.00")
     imgui.pop_style_color(6)
+    # A hand stops at the tie; what came from beyond it may stay there or come back.
+    value = min(value, max(most, weight)) if other else value
     if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0):
         reset = True
         imgui.internal.clear_active_id()  # else the slider goes on following the mouse, away from 0
@@ -192,12 +204,13 @@ def _bars(
     width: float,
     height: float,
     limits: tuple[float, float],
+    tie: float | None,
     values: Sequence[float],
     colours: Sequence[Colour],
     scale: float,
     theme: Theme,
 ) -> None:
-    """Draw the slider's trough, and in it a bar from zero to each value."""
+    """Draw the slider's trough, shut beyond the `tie`, and in it a bar from zero to each value."""
     low, high = limits
 
     def x(value: float) -> float:
@@ -208,6 +221,13 @@ def _bars(
     draw.add_rect_filled(
         imgui.ImVec2(at.x, top), imgui.ImVec2(at.x + width, bottom), packed(theme.frame), 3 * scale
     )
+    if tie is not None:
+        end = x(tie)
+        right = at.x + width
+        draw.add_rect_filled(
+            imgui.ImVec2(end, top), imgui.ImVec2(right, bottom), packed(theme.panel, 0.7), 3 * scale
+        )
+        draw.add_line(imgui.ImVec2(end, top), imgui.ImVec2(end, bottom), packed(theme.text_dim), scale)
     zero = x(min(max(0.0, low), high))
     step = (bottom - top) / len(values)
     for number, (value, colour) in enumerate(zip(values, colours, strict=True)):

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import count
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from facepin.core.arrays import Floats, frozen
 from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
+from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
@@ -47,6 +49,8 @@ class Work:
     panes: tuple[Pane, ...]
     control: ShapeControl
     """What holds for the shapes, in all panes."""
+    mirror: Mirror | None = None
+    """Who is whose twin, where the user has said so."""
     reference: Floats | None = None
     """Weights (k,) that the panes are measured against (Figure 4a of the paper), if any."""
 
@@ -104,6 +108,15 @@ class Session:
     def control(self) -> ShapeControl:
         """What holds for the shapes."""
         return self.work.control
+
+    @property
+    def mirror(self) -> Mirror:
+        """Left and right: as the user has said, or as found in the rig when first asked for."""
+        return self.work.mirror or self._found_mirror
+
+    @cached_property
+    def _found_mirror(self) -> Mirror:
+        return find_mirror(self.rig)
 
     @property
     def in_gesture(self) -> bool:
@@ -207,6 +220,10 @@ class Session:
         if len(control.locked) != self.rig.shape_count:
             raise ValueError(f"control of {len(control.locked)} shapes for {self.rig.shape_count}")
         self._show(label, replace(self._history.current, control=control), final=final)
+
+    def set_mirror(self, label: str, mirror: Mirror) -> None:
+        """Take other shapes for twins from now on; no weight changes."""
+        self._show(label, replace(self._history.current, mirror=mirror), final=True)
 
     def set_reference(self, weights: Floats | None) -> None:
         """Measure the panes against weights (k,) from now on; None forgets them."""

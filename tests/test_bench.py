@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from facepin.core.errors import FacepinError
-from facepin.core.quality import STEPS
+from facepin.core.quality import LEVELS
 from facepin.core.rig_builder import build_rig
 from facepin.core.shading import MODES
 from facepin.figures import bench
@@ -101,18 +101,20 @@ def test_the_tables_fit_a_terminal_and_show_the_papers_times() -> None:
     assert times == ["2.00", "1750", "1.00", "15.0", "0.10", "0.20", "0.30", "-", "-"]
 
 
-def test_every_mode_is_drawn_at_every_step(ctx: moderngl.Context) -> None:
+def test_every_mode_is_drawn_at_every_level(ctx: moderngl.Context) -> None:
     from rich.console import Console
 
     times = frame_times(sheet(), ctx, (160, 90))
-    assert [(time.mode, time.step) for time in times] == [(mode, step) for mode in MODES for step in STEPS]
-    assert all(time.seconds > 0 and time.samples <= STEPS[time.step].samples for time in times)
+    assert [(time.mode, time.quality) for time in times] == [
+        (mode, quality) for mode in MODES for quality in LEVELS
+    ]
+    assert all(time.seconds > 0 and time.samples <= LEVELS[time.quality].samples for time in times)
     (first, *_) = as_json("a machine", [], times)["frames"]
-    assert list(first) == ["rig", "mode", "step", "samples", "seconds"]
+    assert list(first) == ["rig", "mode", "quality", "samples", "seconds"]
     written = StringIO()
     Console(width=80, file=written).print(frames_as_table(times, (160, 90)))
     lines = [line.split() for line in written.getvalue().splitlines() if line.strip().startswith("sheet")]
-    assert [(line[1], len(line)) for line in lines] == [(mode, 2 + len(STEPS)) for mode in MODES]
+    assert [(line[1], len(line)) for line in lines] == [(mode, 2 + len(LEVELS)) for mode in MODES]
 
 
 def test_the_command_measures_stand_ins_and_rigs(

@@ -1,4 +1,4 @@
-"""The steps of picture quality: which one is drawn when, and that what earlier versions remembered counts."""
+"""The levels of picture quality: which one is drawn when, and that what earlier versions remembered counts."""
 
 import json
 from pathlib import Path
@@ -7,7 +7,7 @@ import moderngl
 import pytest
 
 from driver import running
-from facepin.core.quality import STEPS, Step, step
+from facepin.core.quality import LEVELS, Level, level
 from facepin.files.preferences import read_preferences
 from facepin.gpu.canvas import Canvas, Canvases
 from facepin.panels.requests import Choose
@@ -17,10 +17,10 @@ from facepin.stage import Stage
 def test_automatic_is_fast_only_in_motion_without_a_graphics_card() -> None:
     for software in (True, False):
         for moving in (True, False):
-            found = step("auto", software=software, moving=moving)
-            assert found == STEPS["fast" if software and moving else "good"]
-            assert step("best", software=software, moving=moving) == Step(8, fine=True)
-            assert step("fast", software=software, moving=moving) == Step(0, fine=False)
+            found = level("auto", software=software, moving=moving)
+            assert found == LEVELS["fast" if software and moving else "good"]
+            assert level("best", software=software, moving=moving) == Level(8, fine=True)
+            assert level("fast", software=software, moving=moving) == Level(0, fine=False)
 
 
 def test_there_is_one_canvas_for_each_number_of_samples(gl: moderngl.Context) -> None:
@@ -31,7 +31,7 @@ def test_there_is_one_canvas_for_each_number_of_samples(gl: moderngl.Context) ->
     canvases.release()
 
 
-def test_pictures_are_drawn_with_the_step_that_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pictures_are_drawn_with_the_level_that_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[tuple[int, bool]] = []
     plain = Stage.draw
 

@@ -14,7 +14,7 @@ from facepin.actions import carry_out
 from facepin.core.camera import Viewport
 from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
-from facepin.core.quality import Step, step
+from facepin.core.quality import Level, level
 from facepin.core.rig import Rig
 from facepin.desk import ChartWriter, Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
@@ -198,7 +198,7 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
 
             # The picture, where it is another than the last one.
             moving = moved or router.navigator.holding or desk.tool.holding
-            quality = step(view.quality, software=software, moving=moving)
+            quality = level(view.quality, software=software, moving=moving)
             canvas = canvases.of(quality.samples)
             wanted = _picture_key(desk, desk.stage, viewports, quality, window.size)
             if wanted != drawn:
@@ -276,7 +276,7 @@ def _is_software(ctx: moderngl.Context) -> bool:
 
 
 def _picture_key(
-    desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], quality: Step, size: tuple[int, int]
+    desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], quality: Level, size: tuple[int, int]
 ) -> tuple[object, ...]:
     """Return everything the picture depends on; the same key means the same picture."""
     tool = desk.tool

@@ -1,4 +1,4 @@
-"""How much a picture may cost: a few steps, so that it stays smooth on every machine."""
+"""How much a picture may cost: a few levels, so that it stays smooth on every machine."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -8,7 +8,7 @@ Quality = Literal["auto", "fast", "good", "best"]
 
 
 @dataclass(frozen=True)
-class Step:
+class Level:
     """What a picture is made with."""
 
     samples: int
@@ -17,15 +17,15 @@ class Step:
     """Light at every pixel; otherwise at the vertices of what is not glossy."""
 
 
-STEPS: dict[Quality, Step] = {
-    "fast": Step(0, fine=False),
-    "good": Step(4, fine=True),
-    "best": Step(8, fine=True),
+LEVELS: dict[Quality, Level] = {
+    "fast": Level(0, fine=False),
+    "good": Level(4, fine=True),
+    "best": Level(8, fine=True),
 }
 
 
-def step(quality: Quality, *, software: bool, moving: bool) -> Step:
-    """Return the step of a picture.
+def level(quality: Quality, *, software: bool, moving: bool) -> Level:
+    """Return the level of a picture.
 
     Parameters
     ----------
@@ -35,5 +35,5 @@ def step(quality: Quality, *, software: bool, moving: bool) -> Step:
         There is no graphics card; something moves.
     """
     if quality == "auto":
-        return STEPS["fast" if software and moving else "good"]
-    return STEPS[quality]
+        return LEVELS["fast" if software and moving else "good"]
+    return LEVELS[quality]

@@ -1,4 +1,4 @@
-"""What a picture of a face costs in each shading mode and at each step of quality."""
+"""What a picture of a face costs in each shading mode and at each level of quality."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -11,7 +11,7 @@ from facepin.core.camera import Viewport, frame_points
 from facepin.core.heat import heat_scale
 from facepin.core.measures import moves
 from facepin.core.normals import NormalField
-from facepin.core.quality import STEPS
+from facepin.core.quality import LEVELS
 from facepin.core.rig import Rig
 from facepin.core.shading import MODES
 
@@ -29,7 +29,7 @@ class FrameTime:
 
     rig: str
     mode: str
-    step: str
+    quality: str
     samples: int
     """Per pixel, as the machine does it."""
     seconds: float
@@ -57,14 +57,14 @@ def frame_times(rig: Rig, ctx: "moderngl.Context", size: tuple[int, int]) -> lis
     found = []
     for name, mode in MODES.items():
         over = Overlays(heat if mode.shading == "heat" else None, mode.wireframe, None, mode.shading)
-        for word, step in STEPS.items():
-            canvas = canvases.of(step.samples)
+        for word, level in LEVELS.items():
+            canvas = canvases.of(level.samples)
             canvas.resize(*size)
             seconds = []
             for _ in range(FRAMES):
                 began = perf_counter()
                 scene.background.draw(canvas, [(viewport, camera)])
-                draw_pane(canvas, frame(camera, viewport), mesh, over, fine=step.fine)
+                draw_pane(canvas, frame(camera, viewport), mesh, over, fine=level.fine)
                 canvas.flat()
                 ctx.finish()
                 seconds.append(perf_counter() - began)
@@ -81,22 +81,22 @@ def frames_as_json(times: Sequence[FrameTime]) -> list[dict[str, Any]]:
 
 
 def frames_as_table(times: Sequence[FrameTime], size: tuple[int, int]) -> "Table":
-    """Return what the terminal shows: a line for each face and mode, a column for each step."""
+    """Return what the terminal shows: a line for each face and mode, a column for each level."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
-    samples = {time.step: time.samples for time in times}
+    samples = {time.quality: time.samples for time in times}
     table = Table(
         title="A whole picture, in milliseconds (medians)",
         caption=f"{size[0]}x{size[1]} pixels; "
-        + ", ".join(f"{step}: {max(count, 1)} samples" for step, count in samples.items()),
+        + ", ".join(f"{word}: {max(count, 1)} samples" for word, count in samples.items()),
         box=SIMPLE_HEAD,
         padding=0,
     )
     table.add_column("rig", overflow="ellipsis", max_width=20, no_wrap=True)
     table.add_column("shading", no_wrap=True)
-    for step in samples:
-        table.add_column(step, justify="right", no_wrap=True)
+    for word in samples:
+        table.add_column(word, justify="right", no_wrap=True)
     for rig in dict.fromkeys(time.rig for time in times):
         for mode in MODES:
             row = [time for time in times if (time.rig, time.mode) == (rig, mode)]

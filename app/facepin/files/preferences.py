@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Freedom
-from facepin.core.quality import STEPS, Quality
+from facepin.core.quality import LEVELS, Quality
 from facepin.files.atomic import atomic_write
 
 Theme = Literal["dark", "light"]
@@ -49,7 +49,7 @@ _RENAMED = {"quality": {"always": "good", "off": "fast"}}
 _CHECKS: dict[str, Callable[[Any], bool]] = {
     "recent": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
     "freedom": lambda value: value in ("space", "screen"),
-    "quality": lambda value: value in ("auto", *STEPS),
+    "quality": lambda value: value in ("auto", *LEVELS),
     "ui_scale": lambda value: isinstance(value, int | float) and 0.5 <= value <= 4,
     "solver": lambda value: isinstance(value, str),
     "theme": lambda value: value in ("dark", "light"),

@@ -1,4 +1,4 @@
-"""The levels of picture quality: which one is drawn when, and that what earlier versions remembered counts."""
+"""The levels of quality: which one is drawn when, and that what earlier versions remembered counts."""
 
 import json
 from pathlib import Path

@@ -33,6 +33,7 @@ def save_picture(
     viewport: Viewport,
     folder: Path,
     tool: DragTool | None = None,
+    samples: int = 4,
 ) -> Path:
     """Write what the active pane shows, without panels; return where.
 
@@ -44,7 +45,9 @@ def save_picture(
         If it cannot be written.
     """
     framing = frame(camera, viewport)
-    image = stage.picture(stage.session.active, view, camera, framing.rectangle[2:], tool=tool)
+    image = stage.picture(
+        stage.session.active, view, camera, framing.rectangle[2:], tool=tool, samples=samples
+    )
     path = free_name(folder, stage.session.rig.name, ".png")
     atomic_write(path, png_bytes(image))
     return path

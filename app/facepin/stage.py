@@ -138,10 +138,9 @@ class Stage:
         size: tuple[int, int],
         *,
         tool: DragTool | None = None,
-        transparent: bool = False,
-        supersampling: int = 1,
+        samples: int = 4,
     ) -> Image:
-        """Return what a pane shows, (h, w, 4) uint8, as sharp as it can be and with its shading refined.
+        """Return what a pane shows when it rests, (h, w, 4) uint8, with fine light and its shading refined.
 
         Parameters
         ----------
@@ -151,8 +150,8 @@ class Stage:
             Width and height in pixels, any.
         tool : DragTool
             Whose pins are drawn too; no pins without one.
-        transparent, supersampling
-            See `draw_picture`.
+        samples : int
+            Per pixel.
         """
         while not self.refined:
             self.refine()
@@ -166,8 +165,7 @@ class Stage:
             self.mesh(pane),
             camera,
             size,
-            transparent=transparent,
-            supersampling=supersampling,
+            samples=samples,
             overlays=self.overlays(pane, view),
             scale=self.scale,
             overlay=pins,

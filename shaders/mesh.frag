@@ -42,7 +42,7 @@ vec3 mirrored_lamps(vec3 n, vec3 to_eye, vec4 seen)
     // Where the ray meets the plane of the box, in half widths of it.
     vec2 box = (ray.xy - key.xy * dot(ray, key)) / vec2(0.155, 0.19), small = (ray.xy - fill.xy * dot(ray, fill)) / 0.09;
     float front = step(0.0, dot(ray, key)), soft = clamp(length(fwidth(box)), 0.12, 0.4);
-    return KEY_LIGHT * (1.1 * pane(box, soft) * front * smoothstep(0.0, 0.4, seen.x))
+    return KEY_LIGHT * (2.0 * pane(box, soft) * front * smoothstep(0.0, 0.4, seen.x))
          + FILL_LIGHT * (1.6 * pane(small, 0.3) * step(0.0, dot(ray, fill)) * seen.y);
 }
 

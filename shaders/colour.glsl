@@ -4,7 +4,6 @@
 // of clipping.  Fitted to two levels of 8 bits, without pow: this runs at every vertex of every drag frame.
 vec3 picture(vec3 light)
 {
-    light = max(light, 0.0);   // colours guessed beyond the edge of a triangle
     vec3 s = sqrt(light);
     return min(light * (1.0878 + 1.0074 * s) / (0.2183 + light * (1.0886 + s)), 1.0);
 }

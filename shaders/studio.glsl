@@ -32,7 +32,9 @@ vec3 wrapped(float nl)
 // Light that a point sends to the eye.
 vec3 studio(vec3 n, vec3 to_eye, vec3 albedo, float open, vec3 towards)
 {
-    albedo = clamp(albedo, 0.0, 0.8);   // nothing is whiter than snow
+    // Nothing is whiter than snow, nor blacker than black as samples beyond the edge of a triangle guess.
+    albedo = clamp(albedo, 0.0, 0.8);
+    open = clamp(open, 0.0, 1.0);
     vec4 nl = n * lamps, seen = lamps_seen(open, towards);
 
     // Shadows of soft lamps are soft, and under skin light spreads into them.

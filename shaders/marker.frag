@@ -20,6 +20,13 @@ float to_segment(vec2 p, vec2 a, vec2 b)
     return length(pa - ba * clamp(dot(pa, ba) / max(dot(ba, ba), 1e-6), 0.0, 1.0));
 }
 
+// As far as from the middle of a disc that just fits round a square with soft corners.
+float to_square(vec2 p, float radius)
+{
+    vec2 out_of = abs(p) - 0.70 * radius;
+    return length(max(out_of, 0.0)) + min(max(out_of.x, out_of.y), 0.0) + 0.82 * radius;
+}
+
 // How much of the pixel lies within `edge` of the centre line.
 float covered(float away, float edge)
 {
@@ -39,17 +46,19 @@ void main()
     if (shape.x == 1.0) {
         half_width = 0.9 * scale;
         away = abs(away - shape.y);
+    } else if (shape.x == 3.0) {
+        away = to_square(gl_FragCoord.xy - ends.xy, shape.y);
     }
     // A soft shadow under a dark outline under the core: seen on light and on dark skin.
     float shadow = clamp(1.0 - (away - half_width - border) / (2.5 * scale), 0.0, 1.0);
     vec4 c = vec4(OUTLINE, 0.25 * shadow * shadow);
-    if (shape.x == 2.0) {
+    if (shape.x >= 2.0) {
         float glow = clamp(1.0 - (away - half_width) / (6.5 * scale), 0.0, 1.0);
         c = over(vec4(style.rgb, style.a * glow * glow), c);
     }
     c = over(vec4(OUTLINE, 0.9 * covered(away, half_width + border)), c);
     c = over(vec4(style.rgb, covered(away, half_width)), c);
-    if (shape.x == 2.0)
+    if (shape.x >= 2.0)
         c = over(vec4(OUTLINE, 0.9 * covered(away, 0.3 * half_width)), c);
     // A line dips in and out of the face along its way.
     c.a *= shape.x == 0.0 ? mix(HIDDEN, 1.0, unhidden(gl_FragCoord.xy, gl_FragCoord.z)) : strength;

@@ -14,10 +14,11 @@ in vec3 position;
 in vec3 goal;
 in vec4 colour;   // rgb; a: strength of the halo
 in float radius;  // of the disc, in points
+in float square;  // 1: a square instead of the disc
 
 flat out vec4 ends;        // the two ends in pixels: the same one twice for disc and ring
 flat out vec4 style;       // colour of the core, strength of the halo
-flat out vec2 shape;       // x: kind, 0 line, 1 ring, 2 disc; y: radius in pixels
+flat out vec2 shape;       // x: kind, 0 line, 1 ring, 2 disc, 3 square; y: radius in pixels
 flat out float strength;   // of disc and ring: less where the face is in front
 
 const vec2 CORNERS[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(-1, 1), vec2(1, -1), vec2(1, 1));
@@ -65,7 +66,7 @@ void main()
     bool at_goal = kind == 1 || (kind == 0 && corner.x > 0.0);
     ends = kind == 0 ? vec4(pa, pb) : at_goal ? vec4(pb, pb) : vec4(pa, pa);
     style = colour;
-    shape = vec2(kind, scale * (kind == 0 ? 0.75 : kind == 1 ? 0.72 * radius : radius));
+    shape = vec2(kind == 2 ? 2.0 + square : kind, scale * (kind == 0 ? 0.75 : kind == 1 ? 0.72 * radius : radius));
     strength = mix(HIDDEN, 1.0, seen(at_goal ? b : a));
 
     vec2 offset = (corner.x * along + corner.y * vec2(-along.y, along.x)) * (shape.y + MARGIN * scale);

@@ -13,7 +13,7 @@ from facepin.core.events import FilesDropped, PointerMoved, PointerReleased, Scr
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.core.shading import MODES
-from facepin.panels.requests import AddPane, Command, KeepPane, SetPin
+from facepin.panels.requests import AddPane, Command, KeepPane, RemovePins, SetPins
 from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose
 
@@ -300,14 +300,14 @@ def test_the_menu_of_a_pin_opens_once_and_changes_the_pin() -> None:
         app.release(x, y, "right")
         assert app.desk.view.pin_menu == pin.vertex
         weights = app.session.pose.weights
-        app.ask(SetPin(pin.vertex, freedom="screen"))
+        app.ask(SetPins(frozenset({pin.vertex}), freedom="screen"))
         assert app.session.pose.pins[0].freedom == "screen"
         assert app.session.pose.weights is not weights  # solved again at once
         # A click beside it closes it for good.
         app.press(20, 500)
         app.release(20, 500)
         assert app.desk.view.pin_menu is None
-        app.ask(SetPin(pin.vertex, remove=True))
+        app.ask(RemovePins(frozenset({pin.vertex})))
         assert not app.session.pose.pins
 
 

@@ -172,6 +172,29 @@ def test_pins_come_back(tmp_path):
     assert read_pins(tmp_path / "pose.json", RIG) == PINS
 
 
+def test_names_locks_and_hidden_pins_come_back_and_take_no_room_where_they_are_not(tmp_path: Path) -> None:
+    pins = (
+        Pin(2, (0.1, -3.0, 8.25), name="Mundwinkel, links “L”", locked=True),
+        Pin(0, (1.0, 2.0, 3.0), hidden=True),
+        Pin(1, (1.0, 2.0, 3.0)),
+    )
+    write_pins(tmp_path / "pins.json", pins)
+    assert read_pins(tmp_path / "pins.json", RIG) == pins
+    write_pose(tmp_path / "pose.json", RIG, POSE.with_pins(pins))
+    assert read_pose(tmp_path / "pose.json", RIG)[0].pins == pins
+    written = json.loads((tmp_path / "pins.json").read_text())["pins"]
+    assert [sorted(entry) for entry in written] == [
+        ["goal", "locked", "name", "vertex"],
+        ["goal", "hidden", "vertex"],
+        ["goal", "vertex"],
+    ]
+
+
+def test_what_a_later_program_says_of_a_pin_is_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "p.json").write_text('{"pins": [{"vertex": 2, "goal": [0, 1, 2], "colour": "red"}]}')
+    assert read_pins(tmp_path / "p.json", RIG) == (Pin(2, (0.0, 1.0, 2.0)),)
+
+
 def test_a_move_is_from_the_neutral(tmp_path):
     (tmp_path / "p.json").write_text('{"pins": [{"vertex": 2, "move": [0, -1, 0.5], "freedom": "screen"}]}')
     assert read_pins(tmp_path / "p.json", RIG) == (Pin(2, (1.0, 0.0, 0.5), "screen", FRONT_AXES),)
@@ -194,6 +217,10 @@ def test_a_move_is_from_the_neutral(tmp_path):
             'freedom is \'plane\', allowed: "space" or "screen"',
         ),
         ('{"vertex": 1, "move": [0, 0, 0], "stiffness": 0}', "stiffness is 0"),
+        ('{"vertex": 1, "move": [0, 0, 0], "name": 3}', "name is 3, allowed: a text"),
+        ('{"vertex": 1, "move": [0, 0, 0], "name": "a\\nb"}', "without line ends"),
+        ('{"vertex": 1, "move": [0, 0, 0], "locked": 1}', "locked is 1, allowed: true or false"),
+        ('{"vertex": 1, "move": [0, 0, 0], "hidden": "no"}', "hidden is 'no', allowed: true or false"),
         ('{"vertex": 1, "move": [0, 0, 0], "axes": [[1, 0, 0]]}', "axes"),
         ('{"vertex": 1, "move": [0, 0, 0], "axes": [[1, 0, 0], [2, 0, 0]]}', "axes"),
     ],

@@ -1,11 +1,13 @@
 """Pins are where the camera says, seen through the face, and as large as asked for."""
 
+from dataclasses import replace
+
 import moderngl
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from facepin.gpu.markers import STYLES, MarkerLayer, Markers, MarkerState
+from facepin.gpu.markers import STYLES, MarkerLayer, Markers, MarkerState, marker_size
 from gpu_help import WHOLE, ball, camera, draw, drawn
 
 FRONT, BACK = (0.3, 0.2, 0.92), (0.3, 0.2, -0.92)
@@ -63,6 +65,32 @@ def test_states_look_different(gl: moderngl.Context) -> None:
     assert len(seen) >= 3
     areas = [(change(gl, markers(FRONT, states=[s]))[1] > 8).sum() for s in MarkerState]
     assert areas[MarkerState.HELD] > areas[MarkerState.SELECTED] > areas[MarkerState.NORMAL]
+
+
+def test_a_locked_pin_is_a_square_in_every_state(gl: moderngl.Context) -> None:
+    x, y = (round(c) for c in pixel_of(FRONT))
+    for state in MarkerState:
+        disc = change(gl, markers(FRONT, states=[state]), scale=4.0)[0]
+        square = change(gl, replace(markers(FRONT, states=[state]), locked=np.array([True])), scale=4.0)[0]
+        reach = int(4 * 0.85 * STYLES[state].radius / 2**0.5)
+        colour = np.array(STYLES[state].colour) * 255
+        # The same along the axes, but out to the corners.
+        for picture in (disc, square):
+            np.testing.assert_allclose(picture[y, x + reach, :3], colour, atol=6)
+        corner = int(4 * 0.76 * STYLES[state].radius)
+        np.testing.assert_allclose(square[y + corner, x + corner, :3], colour, atol=6)
+        assert np.abs(disc[y + corner, x + corner, :3] - colour).max() > 60
+
+
+def test_a_stiffer_pin_is_larger(gl: moderngl.Context) -> None:
+    def area(stiffness: float) -> int:
+        sizes = np.array([marker_size(stiffness)])
+        return int((change(gl, replace(markers(FRONT), sizes=sizes), scale=4.0)[1] > 60).sum())
+
+    assert marker_size(1.0) == 1.0
+    assert area(0.1) < 0.85 * area(1.0)
+    assert area(10.0) > 1.2 * area(1.0)
+    assert 0.5 < marker_size(1e-6) < marker_size(1e6) < 2
 
 
 def test_a_hidden_marker_is_dimmed(gl: moderngl.Context) -> None:

@@ -206,3 +206,61 @@ def test_four_panes_follow_one_drag_in_a_real_window(screen: str, monkeypatch: p
         hand.do("windowfocus", number)
         hand.do("key", "ctrl+z")
         app.until(lambda: app.session.work is before)
+
+
+def test_a_box_a_shared_drag_and_a_held_arrow_key_in_a_real_window(
+    screen: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("DISPLAY", screen)
+    hand = Hand(screen)
+    with running(solver="tikhonov", windowless=False) as app:
+        number = _wait_for(lambda: hand.do("search", "--name", "^ada - Facepin$")).split()[0]
+        place = hand.do("getwindowgeometry", "--shell", number).splitlines()
+        geometry = dict(line.split("=") for line in place)
+        left, top = int(geometry["X"]), int(geometry["Y"])
+        hand.do("windowfocus", number)
+        viewport = app.frame.viewport
+        x, y = left + round(viewport.x + viewport.width / 2), top + round(viewport.y + 0.66 * viewport.height)
+
+        def drag(start: tuple[int, int], end: tuple[int, int]) -> None:
+            hand.do("mousemove", *start)
+            app.step(frames=3)
+            hand.do("mousedown", 1)
+            app.until(lambda: app.desk.tool.holding, 100)
+            for share in (0.3, 0.6, 1.0):
+                at = [round(a + share * (b - a)) for a, b in zip(start, end, strict=True)]
+                hand.do("mousemove", *at)
+                app.step()
+            hand.do("mouseup", 1)
+            app.until(lambda: not app.desk.tool.holding)
+
+        # A stroke of pins, let go, and caught again with a rubber band.
+        hand.do("key", "b")
+        app.until(lambda: app.desk.view.pins.sketching)
+        drag((x - 40, y), (x + 40, y))
+        laid = app.session.work
+        vertices = {pin.vertex for pin in app.session.pose.pins}
+        assert len(vertices) == 6
+        hand.do("key", "Escape")
+        hand.do("key", "Escape")
+        app.until(lambda: not app.desk.tool.selected)
+        assert not app.desk.view.pins.sketching
+        hand.do("keydown", "ctrl")
+        drag((x - 90, y - 40), (x + 90, y + 40))
+        hand.do("keyup", "ctrl")
+        assert app.desk.tool.selected == vertices
+        assert app.session.work is laid
+
+        # A key that is held goes on until it is let go, as one step.
+        hand.do("keydown", "Down")
+        app.until(lambda: app.session.in_gesture)
+        held = app.session.pose.pins[0].goal
+        hand.do("keyup", "Down")
+        app.until(lambda: not app.session.in_gesture)
+        assert app.session.undo_label == "Nudge 6 pins"
+        assert held[1] < laid.panes[0].pose.pins[0].goal[1]
+        hand.do("key", "ctrl+z")
+        app.until(lambda: app.session.work is laid)
+        hand.do("key", "Delete")
+        app.until(lambda: not app.session.pose.pins)
+        assert not app.desk.tool.selected

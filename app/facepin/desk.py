@@ -176,9 +176,7 @@ class Desk:
         if self.session.message:
             self.say(self.session.message, error=True)
         elif edit.final:
-            held = [pin.vertex for pin in self.session.pose.pins[-1:]]
-            stuck = edit.label == "Place pin" and not self.session.rig.rows_at(held).any()
-            self.say("No shape of this rig moves the point under the new pin" if stuck else "")
+            self.say("")
 
     def saved(self) -> None:
         """Take the work as it is for saved."""
@@ -271,7 +269,12 @@ class Desk:
         self._then = then
 
     def sync(self) -> None:
-        """Give every pane its camera and view, which it keeps when others are closed and finds after undo."""
+        """Follow the session: no pin is selected that is gone, and every pane has its camera and view.
+
+        It keeps these when others are closed, and finds them after undo.
+        """
+        if self.session is not None:
+            self.tool.forget_gone(self.session.pose.pins)
         numbers = [pane.number for pane in self.session.panes] if self.session else [0]
         if numbers == self._numbers:
             return

@@ -13,17 +13,21 @@ from facepin.panels import layout
 from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
 from facepin.panels.guide import Hand, draw_guide
+from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
-from facepin.panels.menu import menu_bar, pin_menu
+from facepin.panels.menu import menu_bar
 from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
-from facepin.panels.requests import Request
+from facepin.panels.pin_menu import pin_menu
+from facepin.panels.pins import pins_panel, together
+from facepin.panels.requests import Command, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import loading_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.panels.weights import weights_panel
 from facepin.session.session import Session
+from facepin.stage import Stage
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> list[Request]:
@@ -86,6 +90,15 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             theme,
         )
     imgui.end()
+    layout.without_background(layout.PINS)
+    layout.beside(layout.PINS, layout.SOLVER)
+    of_pins: Request | None = None
+    if imgui.begin(layout.PINS)[0] and session is not None and desk.stage is not None:
+        pins, positions = session.pose.pins, desk.stage.positions(session.active)
+        of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins, theme)
+        if desk.view.pins.hovered is not None:
+            desk.tool.hovered = desk.view.pins.hovered
+    imgui.end()
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
         edit = weights_panel(
@@ -106,7 +119,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         desk.view.chart, chart = chart_window(
             session.rig, session.panes, session.work.reference, scale, theme
         )
-    return [asked for asked in (request, chart) if asked is not None]
+    return [asked for asked in (request, of_pins, chart) if asked is not None]
 
 
 def over_picture(
@@ -137,7 +150,10 @@ def over_picture(
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.shading == "heat":
             heat_legend(session.rig.height, place, pixel_ratio, scale)
-    _first_steps(desk, session, viewport, pixel_ratio, scale)
+    if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
+        asked.append(chip)
+    elif not desk.view.pins.sketching:
+        _first_steps(desk, session, viewport, pixel_ratio, scale)
     return asked
 
 
@@ -176,6 +192,28 @@ def _first_steps(desk: Desk, session: Session, viewport: Viewport, pixel_ratio: 
     draw_guide(view.guide, now, view.habit, viewport, pixel_ratio, scale)
 
 
+def _hand(
+    desk: Desk,
+    session: Session,
+    stage: Stage,
+    viewport: Viewport,
+    viewports: Sequence[Viewport],
+    pixel_ratio: float,
+    scale: float,
+) -> Command | None:
+    """Draw what concerns the pins over the picture."""
+    draw_gesture(desk.tool.gesture, pixel_ratio, scale)
+    pins = session.pose.pins
+    hovered = next((pin for pin in pins if pin.vertex == desk.tool.hovered and not pin.hidden), None)
+    if hovered is not None and not desk.tool.holding:
+        for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
+            pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
+    if desk.view.pins.sketching:
+        sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
+    hidden = sum(pin.hidden for pin in pins)
+    return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
+
+
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
     """Draw the menu of the pin that was clicked with the right button, while it is open."""
     if desk.view.pin_menu is None:
@@ -187,6 +225,7 @@ def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
     if pin is None or not imgui.begin_popup("pin menu"):
         desk.view.pin_menu = None
         return None
-    request = pin_menu(pin)
+    vertices = together(pin, desk.tool.selected)
+    request = pin_menu(pin, [other for other in pose.pins if other.vertex in vertices], desk.view.habit)
     imgui.end_popup()
     return request

@@ -34,7 +34,7 @@ from facepin.window import Window
 IDLE_WAIT = 0.5
 """Seconds to sleep at most when nothing happens; a text cursor blinks in this rhythm."""
 BUSY_WAIT = 1 / 30
-"""The same while a file is being opened or a dialog is up."""
+"""The same while a file is being opened, a dialog is up, or pins are nudged by keys."""
 SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
 HOVER_DELAY = 0.2
@@ -147,7 +147,8 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        busy = desk.loading is not None or desk.dialog is not None or view.guide.moving(began)
+        waiting = desk.loading is not None or desk.dialog is not None
+        busy = waiting or desk.tool.nudging or view.guide.moving(began)
         settling = SETTLE if events or busy else settling - 1
         if 0 in window.size:
             # Minimised: there is nothing to draw on, and imgui would fold its panels up.

@@ -1,15 +1,19 @@
 """Gives each event to whoever has a right to it: a gesture in progress, imgui, drag tool, camera."""
 
 from collections.abc import Sequence
+from math import hypot
+from time import monotonic
 
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.core.events import (
+    NONE,
     CloseRequested,
     Event,
     FilesDropped,
     KeyPressed,
+    KeyReleased,
     PointerMoved,
     PointerPressed,
     PointerReleased,
@@ -17,9 +21,10 @@ from facepin.core.events import (
 )
 from facepin.desk import Desk
 from facepin.panels.requests import PICTURES, Command, OpenPath, Request, command_for
-from facepin.session.drag import Sight, pin_at
 from facepin.session.edit import Edit
 from facepin.session.navigation import PRESETS, Navigator
+from facepin.session.nudge import goes_on
+from facepin.session.sight import DEAD_ZONE, Pixel, Sight, pin_at
 from facepin.stage import Stage
 
 
@@ -29,6 +34,8 @@ class Router:
     def __init__(self) -> None:
         self.navigator = Navigator()
         self._pane = 0
+        self._beside: Pixel | None = None
+        """Where the mouse went down beside the face."""
 
     def take(
         self, events: Sequence[Event], desk: Desk, viewports: Sequence[Viewport], scale: float
@@ -41,19 +48,24 @@ class Router:
         asked: list[Request] = []
         pending: Edit | None = None
         for event in events:
-            in_hand = desk.tool.holding
+            if desk.tool.nudging and not goes_on(event) and not _is_escape(event):
+                _finished(desk.tool.finish(), desk)
+                pending = None
+            in_hand = desk.tool.holding or desk.tool.nudging
             edit = self._route(event, desk, viewports, scale, asked)
             if edit is not None and edit.final:
-                desk.apply(edit)
-                if desk.stage is not None:
-                    desk.stage.update()
+                _finished(edit, desk)
                 pending = None
             elif edit is not None:
                 pending = edit
-            elif in_hand and not desk.tool.holding:  # given up: nothing of it may come after
-                pending = None
+            elif in_hand and not (desk.tool.holding or desk.tool.nudging):
+                pending = None  # given up: nothing of it may come after
+            if desk.tool.remark:
+                desk.say(desk.tool.remark)
+                desk.tool.remark = ""
         if pending is not None:
             desk.apply(pending)
+        _finished(desk.tool.settle(monotonic()), desk)
         return asked
 
     def _route(
@@ -76,12 +88,28 @@ class Router:
                 if command is not None and (not in_hand or command in PICTURES):
                     asked.append(command)
                 elif desk.stage is not None:
-                    if event.key == "escape" and desk.tool.holding:
-                        desk.stage.session.cancel()
-                    return desk.tool.handle(event, self._sight(desk, desk.stage, viewports, scale))
+                    return self._key(event, desk, desk.stage, viewports, scale)
+            case KeyReleased() if desk.stage is not None:
+                return desk.tool.handle(event, self._sight(desk, desk.stage, viewports, scale, self._pane))
             case PointerMoved() | PointerPressed() | PointerReleased() | Scrolled() if desk.stage is not None:
                 return self._pointer(event, desk, desk.stage, viewports, scale)
         return None
+
+    def _key(
+        self, event: KeyPressed, desk: Desk, stage: Stage, viewports: Sequence[Viewport], scale: float
+    ) -> Edit | None:
+        """Give a key that asks for no command to the tool, in the pane that is worked on."""
+        if event.key == "escape":
+            if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
+                return None  # that is what it closes
+            if desk.tool.holding or desk.tool.nudging:
+                stage.session.cancel()
+            elif desk.view.pins.sketching:
+                desk.view.pins.sketching = False
+                return None
+        elif imgui.get_io().want_capture_keyboard:
+            return None
+        return desk.tool.handle(event, self._sight(desk, stage, viewports, scale, stage.session.active))
 
     def _pointer(
         self,
@@ -92,9 +120,10 @@ class Router:
         scale: float,
     ) -> Edit | None:
         if desk.tool.holding:
-            return desk.tool.handle(event, self._sight(desk, stage, viewports, scale))
+            return desk.tool.handle(event, self._sight(desk, stage, viewports, scale, self._pane))
         if self.navigator.holding:
             self._navigate(event, desk, viewports)
+            self._click_beside(event, desk, scale)
             return None
         if isinstance(event, PointerReleased) or imgui.get_io().want_capture_mouse:
             desk.tool.hovered = None
@@ -103,21 +132,33 @@ class Router:
         if not under or under[0] >= len(desk.cameras):
             return None
         self._pane = under[0]
-        sight = self._sight(desk, stage, viewports, scale)
+        sight = self._sight(desk, stage, viewports, scale, self._pane)
         if isinstance(event, PointerPressed):
             stage.session.active = self._pane
             if event.button == "right" and not event.modifiers.alt:
                 vertex = pin_at(sight, (event.x, event.y))
                 if vertex is not None:
                     desk.view.pin_menu, desk.view.pin_menu_opens = vertex, True
-                    desk.tool.selected = frozenset({vertex})
+                    if vertex not in desk.tool.selected:  # else the menu is for all that are selected
+                        desk.tool.selected = frozenset({vertex})
                     return None
         edit = None
         if not (isinstance(event, PointerPressed) and event.modifiers.alt):
             edit = desk.tool.handle(event, sight)
         if not desk.tool.holding:
             self._navigate(event, desk, viewports)
+            self._click_beside(event, desk, scale)
         return edit
+
+    def _click_beside(self, event: Event, desk: Desk, scale: float) -> None:
+        """Let go of the selection after a click beside the face: one that did not turn the camera."""
+        match event:
+            case PointerPressed(x, y, "left") if event.modifiers == NONE:
+                self._beside = (x, y)
+            case PointerReleased(x, y, "left") if self._beside is not None:
+                if hypot(x - self._beside[0], y - self._beside[1]) < DEAD_ZONE * scale:
+                    desk.tool.selected = frozenset()
+                self._beside = None
 
     def _navigate(self, event: Event, desk: Desk, viewports: Sequence[Viewport]) -> None:
         pane = min(self._pane, len(viewports) - 1, len(desk.cameras) - 1)  # it may have been closed meanwhile
@@ -126,8 +167,10 @@ class Router:
         if camera is not before:
             desk.look(camera, pane)
 
-    def _sight(self, desk: Desk, stage: Stage, viewports: Sequence[Viewport], scale: float) -> Sight:
-        pane = min(self._pane, len(viewports) - 1, len(stage.session.panes) - 1)
+    def _sight(
+        self, desk: Desk, stage: Stage, viewports: Sequence[Viewport], scale: float, pane: int
+    ) -> Sight:
+        pane = min(pane, len(viewports) - 1, len(stage.session.panes) - 1)
         return Sight(
             stage.session.rig,
             stage.triangles,
@@ -137,4 +180,18 @@ class Router:
             viewports[pane],
             scale,
             desk.view.freedom,
+            desk.view.pins.stroke if desk.view.pins.sketching else None,
+            ("left", NONE) not in PRESETS[desk.view.habit].motions,
         )
+
+
+def _finished(edit: Edit | None, desk: Desk) -> None:
+    """Make an edit an undo step, at once: the next event may begin another on what it left."""
+    if edit is not None:
+        desk.apply(edit)
+        if desk.stage is not None:
+            desk.stage.update()
+
+
+def _is_escape(event: Event) -> bool:
+    return isinstance(event, KeyPressed) and event.key == "escape"

@@ -24,6 +24,7 @@ from facepin.core.events import (
     Event,
     FilesDropped,
     KeyPressed,
+    KeyReleased,
     Modifiers,
     PointerMoved,
     PointerPressed,
@@ -43,13 +44,21 @@ _KEYS = {
     glfw.KEY_BACKSPACE: "backspace",
     glfw.KEY_HOME: "home",
     glfw.KEY_KP_DECIMAL: "numpad .",
+    glfw.KEY_LEFT: "left",
+    glfw.KEY_RIGHT: "right",
+    glfw.KEY_UP: "up",
+    glfw.KEY_DOWN: "down",
+    glfw.KEY_PAGE_UP: "page up",
+    glfw.KEY_PAGE_DOWN: "page down",
     **{glfw.KEY_F1 + i: f"f{i + 1}" for i in range(12)},
     **{glfw.KEY_KP_0 + i: f"numpad {i}" for i in range(10)},
     **{glfw.KEY_0 + i: str(i) for i in range(10)},
     **{glfw.KEY_A + i: chr(ord("a") + i) for i in range(26)},
 }
-_REPEATED = ("z", "y")
-"""Keys that go on while they are held: undo and redo."""
+_HELD = ("left", "right", "up", "down", "page up", "page down")
+"""Keys whose release is told, too: what they do goes on until then."""
+_REPEATED = ("z", "y", *_HELD)
+"""Keys that go on while they are held: undo and redo, and those that move something."""
 
 
 class NoDisplay(FacepinError):
@@ -278,9 +287,11 @@ class Window:
         self._events.append(Scrolled(x, y, steps))
 
     def _on_key(self, _: object, key: int, scancode: int, action: int, __: int) -> None:
-        if action == glfw.RELEASE:
-            return
         name = _KEYS.get(key)
+        if action == glfw.RELEASE:
+            if name in _HELD:
+                self._events.append(KeyReleased(name))
+            return
         if action == glfw.REPEAT and name not in _REPEATED:
             return  # a picture is not saved thirty times a second because F12 was held
         if glfw.KEY_A <= key <= glfw.KEY_Z:

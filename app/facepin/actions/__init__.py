@@ -5,11 +5,21 @@ Each has `act(request, desk)`, which does what was asked and says whether it was
 
 from collections.abc import Callable
 
-from facepin.actions import comparing, files, helping, mirroring, pinning, posing, viewing
+from facepin.actions import (
+    comparing,
+    files,
+    helping,
+    landmarks,
+    mirroring,
+    pinning,
+    posing,
+    viewing,
+)
 from facepin.desk import Desk
 from facepin.panels.requests import Request
 
 TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
+    landmarks.act,
     files.act,
     posing.act,
     pinning.act,

@@ -57,10 +57,17 @@ class Scrolled:
 
 @dataclass(frozen=True)
 class KeyPressed:
-    """A key went down.  `key` is its lower-case name: "a", "1", "numpad 1", "delete", "escape", "f12"."""
+    """A key went down.  `key` is its lower-case name: "a", "1", "numpad 1", "delete", "left", "f12"."""
 
     key: str
     modifiers: Modifiers = NONE
+
+
+@dataclass(frozen=True)
+class KeyReleased:
+    """A key that does more the longer it is held went up: an arrow key."""
+
+    key: str
 
 
 @dataclass(frozen=True)
@@ -86,6 +93,7 @@ Event = (
     | PointerReleased
     | Scrolled
     | KeyPressed
+    | KeyReleased
     | FilesDropped
     | Stirred
     | CloseRequested

@@ -136,8 +136,8 @@ def _likeness(rig: Rig, twins: Indices, middle: float) -> tuple[Floats, Floats]:
     chosen = known[moved[known]]
     chosen = chosen[:: max(1, len(chosen) // SAMPLES)]
     chosen = np.union1d(chosen, twins[chosen])
-    here = rig.rows_at(chosen.tolist())
-    there = rig.rows_at(twins[chosen].tolist()) * np.tile([-1.0, 1.0, 1.0], len(chosen))[:, None]
+    here = rig.rows_at(chosen.tolist())[:, :count]
+    there = rig.rows_at(twins[chosen].tolist())[:, :count] * np.tile([-1.0, 1.0, 1.0], len(chosen))[:, None]
     lengths = np.linalg.norm(there, axis=0)[:, None] * np.linalg.norm(here, axis=0)[None]
     cosines: Floats = (there.T @ here) / np.where(lengths > 0, lengths, np.inf)
     moves = np.linalg.norm(here.reshape(len(chosen), 3, count), axis=1)

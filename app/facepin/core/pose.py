@@ -1,5 +1,6 @@
 """Pins and poses: the undoable values."""
 
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -30,6 +31,17 @@ class Pin:
     """Right and up of the camera that set the goal; used by `screen` pins only."""
     stiffness: float = 1.0
     """How hard the pin pulls, > 0; its rows and displacement are scaled by the square root."""
+    name: str = ""
+    """What the user calls it, or the landmark it stands on."""
+    locked: bool = False
+    """It constrains, but is neither dragged nor removed."""
+    hidden: bool = False
+    """It constrains, but is neither seen nor pressed."""
+
+    @property
+    def title(self) -> str:
+        """Its name, or where it is."""
+        return self.name or f"vertex {self.vertex}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +58,13 @@ class Pose:
     def with_pins(self, pins: tuple[Pin, ...]) -> "Pose":
         """Return the same weights with other pins."""
         return replace(self, pins=pins)
+
+
+def with_changed(
+    pins: tuple[Pin, ...], vertices: Collection[int], change: Callable[[Pin], Pin]
+) -> tuple[Pin, ...]:
+    """Return the pins with those on some vertices replaced by what `change` makes of them."""
+    return tuple(change(pin) if pin.vertex in vertices else pin for pin in pins)
 
 
 def rest_pose(rig: Rig) -> Pose:

@@ -15,13 +15,15 @@ from facepin.files.checked_json import JsonObject, parse_json
 from facepin.files.reading import read_bytes
 
 HARDEST = 1e6
+LONGEST_NAME = 80
 
 
 def read_pins(path: Path, rig: Rig) -> tuple[Pin, ...]:
     """Read the pins of a pins file or of a pose file.
 
     A pin has a `vertex` and either a `goal` or a `move` from the neutral; optional are `freedom` ("space" or
-    "screen"), `stiffness` (> 0) and, for screen pins, `axes` (right and up of the camera).
+    "screen"), `stiffness` (> 0), for screen pins `axes` (right and up of the camera), `name`, `locked` and
+    `hidden`.
 
     Raises
     ------
@@ -68,6 +70,9 @@ def pins_as_json(pins: tuple[Pin, ...]) -> list[dict[str, Any]]:
             entry |= {"freedom": pin.freedom, "axes": [list(axis) for axis in pin.axes]}
         if pin.stiffness != 1.0:
             entry["stiffness"] = pin.stiffness
+        if pin.name:
+            entry["name"] = pin.name
+        entry |= {flag: True for flag in ("locked", "hidden") if getattr(pin, flag)}
         entries.append(entry)
     return entries
 
@@ -85,7 +90,24 @@ def _pin(entry: JsonObject, rig: Rig) -> Pin:
     if freedom not in ("space", "screen"):
         entry.refuse("freedom", '"space" or "screen"')
     stiffness = entry.number("stiffness", 1.0, low=1 / HARDEST, high=HARDEST)
-    return Pin(vertex, goal, "screen" if freedom == "screen" else "space", _axes(entry), stiffness)
+    return Pin(
+        vertex,
+        goal,
+        "screen" if freedom == "screen" else "space",
+        _axes(entry),
+        stiffness,
+        pin_name(entry, ""),
+        entry.flag("locked", False),
+        entry.flag("hidden", False),
+    )
+
+
+def pin_name(entry: JsonObject, default: str | None = None) -> str:
+    """Return the name of a pin: one short line."""
+    name = entry.text("name", default)
+    if len(name) > LONGEST_NAME or not (name.isprintable() and name == name.strip()):
+        entry.refuse("name", f"a text of at most {LONGEST_NAME} characters without line ends")
+    return name
 
 
 def _vector(entry: JsonObject, key: str) -> Vector:

@@ -3,12 +3,13 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 from enum import IntEnum
+from math import log10
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from facepin.core.arrays import Points
+from facepin.core.arrays import Floats, Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.pose import Pose
 from facepin.gpu.canvas import Canvas
@@ -43,7 +44,14 @@ STYLES: dict[MarkerState, MarkerStyle] = {
 """White and the accent differ in lightness as well as in hue: told apart without colour vision."""
 
 _VERTICES = 18
-_LAYOUT = np.dtype([("position", "3f4"), ("goal", "3f4"), ("colour", "4f4"), ("radius", "f4")])
+_LAYOUT = np.dtype(
+    [("position", "3f4"), ("goal", "3f4"), ("colour", "4f4"), ("radius", "f4"), ("square", "f4")]
+)
+
+
+def marker_size(stiffness: float) -> float:
+    """Return how many times the usual size shows how hard a pin pulls: ten times as hard, a fifth larger."""
+    return min(max(1 + 0.2 * log10(stiffness), 0.6), 1.6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,29 +64,39 @@ class Markers:
     """(p, 3) float32, where they should be."""
     states: NDArray[np.uint8]
     """(p,) values of `MarkerState`."""
+    sizes: Floats | None = None
+    """(p,) times the usual radius; None for all as usual."""
+    locked: NDArray[np.bool_] | None = None
+    """(p,) which are drawn as squares; None for none."""
 
 
 def pin_markers(
     pose: Pose,
     positions: Points,
     *,
-    held: int | None = None,
+    held: Collection[int] = (),
     hovered: int | None = None,
     selected: Collection[int] = (),
 ) -> Markers:
-    """Return markers for the pins of a pose on the vertices (n, 3) as posed; hands are named by vertex."""
+    """Return markers for the pins of a pose on the vertices (n, 3) as posed, without those that are hidden.
+
+    Pins that are held, hovered or selected are named by their vertices.
+    """
 
     def state(vertex: int) -> MarkerState:
-        if vertex == held:
+        if vertex in held:
             return MarkerState.HELD
         if vertex in selected:
             return MarkerState.SELECTED
         return MarkerState.HOVERED if vertex == hovered else MarkerState.NORMAL
 
+    pins = [pin for pin in pose.pins if not pin.hidden]
     return Markers(
-        positions[[pin.vertex for pin in pose.pins]],
-        np.array([pin.goal for pin in pose.pins], np.float32).reshape(-1, 3),
-        np.array([state(pin.vertex) for pin in pose.pins], np.uint8),
+        positions[[pin.vertex for pin in pins]],
+        np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
+        np.array([state(pin.vertex) for pin in pins], np.uint8),
+        np.array([marker_size(pin.stiffness) for pin in pins]),
+        np.array([pin.locked for pin in pins], bool),
     )
 
 
@@ -95,7 +113,8 @@ class MarkerLayer:
         """Make room for `count` markers."""
         self._capacity = count
         self._instances = self.ctx.buffer(reserve=count * _LAYOUT.itemsize, dynamic=True)
-        layout = (self._instances, "3f 3f 4f 1f /i", "position", "goal", "colour", "radius")
+        names = ("position", "goal", "colour", "radius", "square")
+        layout = (self._instances, "3f 3f 4f 1f 1f /i", *names)
         self._quads = [self.ctx.vertex_array(program, [layout]) for program in self._programs]
 
     def draw(
@@ -160,4 +179,8 @@ def _instances(markers: Markers) -> NDArray[np.void]:
     packed["goal"] = markers.goals[order]
     packed["colour"] = [(*style.colour, style.halo) for style in styles]
     packed["radius"] = [style.radius for style in styles]
+    if markers.sizes is not None:
+        packed["radius"] *= markers.sizes[order]
+    if markers.locked is not None:
+        packed["square"] = markers.locked[order]
     return packed

@@ -28,8 +28,18 @@ def why_not(command: Command, session: Session | None) -> str:
             return "nothing to undo"
         case Command.REDO if session.redo_label is None:
             return "nothing to redo"
-        case Command.DELETE_PINS | Command.CLEAR_PINS if not session.pose.pins:
+        case (
+            Command.SELECT_PINS
+            | Command.DELETE_PINS
+            | Command.CLEAR_PINS
+            | Command.LOCK_PINS
+            | Command.HIDE_PINS
+        ) if not session.pose.pins:
             return "there are no pins"
+        case Command.SHOW_PINS if not any(pin.hidden for pin in session.pose.pins):
+            return "no pin is hidden"
+        case Command.SAVE_LANDMARKS if not any(pin.name for pin in session.pose.pins):
+            return "no pin has a name"
         case Command.FORGET_REFERENCE if session.work.reference is None:
             return "no reference is set"
     return ""

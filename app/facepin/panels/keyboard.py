@@ -19,7 +19,11 @@ HAND: tuple[tuple[str, str], ...] = (
     ("Click on the face", "Place a pin"),
     ("Drag", "Move a pin: the face follows"),
     ("Shift+Click a pin", "Select one more"),
-    ("Right click a pin", "What it holds, how stiff it is"),
+    ("Ctrl+Drag", "Select pins with a rubber band"),
+    ("Right click a pin", "What it holds, lock, hide"),
+    ("Arrow keys", "Nudge selected pins; Shift: by ten"),
+    ("Page Up", "Push them away"),
+    ("Page Down", "Pull them near"),
     ("Esc", "Give up the drag in hand"),
 )
 """What the mouse does on the face."""

@@ -6,6 +6,7 @@ from facepin.core.camera import Viewport
 
 WEIGHTS = "Weights"
 SOLVER = "Solver"
+PINS = "Pins"
 PANEL_WIDTH = 330.0
 SOLVER_HEIGHT = 332.0
 """First sizes of the docked panels, in pixels at 1x scale."""
@@ -74,6 +75,13 @@ def without_background(name: str) -> None:
             imgui.set_next_window_bg_alpha(0.0)
 
 
+def beside(name: str, other: str) -> None:
+    """Dock the next window, `name`, as a tab with `other` where a layout of former days doesn't know it."""
+    window = imgui.internal.find_window_by_name(other)
+    if window is not None and window.dock_id and imgui.internal.find_window_by_name(name) is None:
+        imgui.set_next_window_dock_id(window.dock_id, imgui.Cond_.first_use_ever)
+
+
 def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
     """Cut a viewport into `count` equal panes, in rows and columns that leave a face as large as possible.
 
@@ -105,7 +113,7 @@ def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
 
 
 def _build(space: int, scale: float) -> None:
-    """Solver above weights, both right of the picture."""
+    """Solver (and pins, as a tab) above weights, all right of the picture."""
     builder = imgui.internal
     builder.dock_builder_remove_node(space)
     builder.dock_builder_add_node(space, imgui.internal.DockNodeFlagsPrivate_.dock_space)
@@ -116,5 +124,6 @@ def _build(space: int, scale: float) -> None:
     height = min(SOLVER_HEIGHT * scale / max(size.y, 1), 0.6)
     _, top, bottom = builder.dock_builder_split_node_py(right, imgui.Dir.up, height)
     builder.dock_builder_dock_window(SOLVER, top)
+    builder.dock_builder_dock_window(PINS, top)
     builder.dock_builder_dock_window(WEIGHTS, bottom)
     builder.dock_builder_finish(space)

@@ -1,4 +1,4 @@
-"""The menu bar and the menu of a pin."""
+"""The menu bar."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 from facepin.core.pose import Pin
 from facepin.panels import layout
 from facepin.panels.overlays import close_on_escape, overlay_items
+from facepin.panels.pins import STROKES
 from facepin.panels.requests import (
     AddPane,
     Choose,
@@ -17,10 +18,9 @@ from facepin.panels.requests import (
     OpenPath,
     RandomReference,
     Request,
-    SetPin,
     key_of,
 )
-from facepin.panels.view import CHOICES, FREEDOMS, View
+from facepin.panels.view import CHOICES, View
 from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
@@ -41,7 +41,6 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     """
     undo = session.undo_label if session else None
     redo = session.redo_label if session else None
-    pins = len(session.pose.pins) if session else 0
     asked: Request | None = None
     layout.push_no_ground()
     shown = imgui.begin_main_menu_bar()
@@ -72,15 +71,15 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         asked = _item(view, Command.UNDO, undo is not None, undo) or asked
         asked = _item(view, Command.REDO, redo is not None, redo) or asked
         imgui.separator()
-        asked = _item(view, Command.DELETE_PINS, bool(pins)) or asked
-        asked = _item(view, Command.CLEAR_PINS, bool(pins)) or asked
         asked = _item(view, Command.RESET_POSE) or asked
         imgui.separator()
         asked = _item(view, Command.SYMMETRY, selected=view.symmetric) or asked
         for command in (Command.FLIP_POSE, Command.MIRROR_LEFT, Command.MIRROR_RIGHT):
             asked = _item(view, command) or asked
-        imgui.separator()
-        asked = _choices(view, "freedom") or asked
+        imgui.end_menu()
+    if imgui.begin_menu("Pins", session is not None) and session is not None:
+        close_on_escape()
+        asked = _pins(view, session.pose.pins) or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()
@@ -143,24 +142,24 @@ def _compare(view: View, session: Session) -> Request | None:
     return _item(view, Command.CHART) or asked
 
 
-def pin_menu(pin: Pin) -> SetPin | None:
-    """Draw the inside of the menu of a pin; return what the user changes, or None."""
-    request = None
-    close_on_escape()
-    imgui.text_disabled(f"Pin on vertex {pin.vertex}")
+def _pins(view: View, pins: Sequence[Pin]) -> Request | None:
+    """Draw the inside of the menu of pins."""
+    asked: Request | None = None
+    for command in (Command.SELECT_PINS, Command.LOCK_PINS, Command.HIDE_PINS, Command.DELETE_PINS):
+        asked = _item(view, command, bool(pins)) or asked
+    asked = _item(view, Command.SHOW_PINS, any(pin.hidden for pin in pins)) or asked
+    asked = _item(view, Command.CLEAR_PINS, bool(pins)) or asked
     imgui.separator()
-    for freedom, title in FREEDOMS.items():
-        if imgui.menu_item_simple(title, selected=pin.freedom == freedom) and pin.freedom != freedom:
-            request = SetPin(pin.vertex, freedom=freedom)
-    imgui.set_next_item_width(9 * imgui.get_font_size())
-    flags = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
-    changed, stiffness = imgui.slider_float("stiffness", pin.stiffness, 0.01, 100.0, "%.2f", flags)
-    if changed or imgui.is_item_deactivated_after_edit():
-        request = SetPin(pin.vertex, stiffness=stiffness, final=imgui.is_item_deactivated_after_edit())
+    asked = _choices(view, "freedom") or asked
+    asked = _item(view, Command.SKETCH_PINS, selected=view.pins.sketching) or asked
+    if imgui.begin_menu("Pins along a stroke"):
+        for count in range(STROKES[0], STROKES[1] + 1):
+            if imgui.menu_item_simple(str(count), selected=view.pins.stroke == count):
+                view.pins.stroke = count
+        imgui.end_menu()
     imgui.separator()
-    if imgui.menu_item_simple("Remove", "Delete"):
-        request = SetPin(pin.vertex, remove=True)
-    return request
+    asked = _item(view, Command.SAVE_LANDMARKS, any(pin.name for pin in pins)) or asked
+    return _item(view, Command.LOAD_LANDMARKS) or asked
 
 
 def _item(

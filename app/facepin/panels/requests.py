@@ -72,8 +72,25 @@ class Command(Enum):
         "Edit",
         "The character's left side does what its right does.",
     )
+    SELECT_PINS = "Select all pins", ("Ctrl+A",), "Pins", "Selected pins move together."
     DELETE_PINS = "Remove selected pins", ("Delete", "Backspace"), "Pins", "The pose stays as it is."
-    CLEAR_PINS = "Remove all pins", (), "Pins", "Frees every point; the pose stays as it is."
+    CLEAR_PINS = "Remove all pins", (), "Pins", "All but locked ones; the pose stays as it is."
+    LOCK_PINS = (
+        "Lock or unlock selected pins",
+        ("L",),
+        "Pins",
+        "A locked pin holds its point, but is neither dragged nor removed.",
+    )
+    HIDE_PINS = "Hide selected pins", ("Ctrl+H",), "Pins", "A hidden pin goes on holding its point."
+    SHOW_PINS = "Show hidden pins", ("Alt+H",), "Pins", "Brings all hidden pins back into the picture."
+    SKETCH_PINS = (
+        "Sketch strokes of pins",
+        ("B",),
+        "Pins",
+        "A line drawn on the skin becomes a row of pins that move together.",
+    )
+    SAVE_LANDMARKS = "Save landmarks…", (), "Pins", "Writes the names of pins and where they are on this rig."
+    LOAD_LANDMARKS = "Load landmarks…", (), "Pins", "Places a pin on every landmark of a file."
     FRAME = "Frame the face", ("F",), "View", "Brings the whole face into the picture."
     FRONT = "Front", ("1", "Numpad 1"), "View", "Looks at the face from the front."
     LEFT = "Character's left", ("3", "Numpad 3"), "View", "Looks at the side that is left to the character."
@@ -259,14 +276,38 @@ class KeepPane:
 
 
 @dataclass(frozen=True)
-class SetPin:
-    """Change what the pin at a vertex constrains."""
+class SetPins:
+    """Change the pins on some vertices; what is None stays as it is."""
 
-    vertex: int
+    vertices: frozenset[int]
     freedom: Freedom | None = None
     stiffness: float | None = None
-    remove: bool = False
+    locked: bool | None = None
+    hidden: bool | None = None
     final: bool = True
+    """False while a setting is being slid."""
+
+
+@dataclass(frozen=True)
+class NamePin:
+    """Call the pin on a vertex by another name; an empty one takes its name away."""
+
+    vertex: int
+    name: str
+
+
+@dataclass(frozen=True)
+class RemovePins:
+    """Remove the pins on some vertices."""
+
+    vertices: frozenset[int]
+
+
+@dataclass(frozen=True)
+class SelectPins:
+    """Select the pins on some vertices, and no others."""
+
+    vertices: frozenset[int]
 
 
 @dataclass(frozen=True)
@@ -299,8 +340,11 @@ Request = (
     | ClosePane
     | KeepPane
     | RandomReference
-    | SetPin
     | PairShapes
     | Choose
+    | SetPins
+    | NamePin
+    | RemovePins
+    | SelectPins
     | CancelLoading
 )

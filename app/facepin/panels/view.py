@@ -8,18 +8,13 @@ from facepin.core.pose import Freedom
 from facepin.core.quality import Quality
 from facepin.core.shading import MODES, Shading
 from facepin.panels.guide import Guide
+from facepin.panels.pins import FREEDOMS, PinsView
 from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights import WeightsView
 from facepin.session.navigation import PRESETS, Habit
 from facepin.session.solving import SolverChoice
 
 Ghost = Literal["none", "neutral", "reference"]
-
-
-FREEDOMS: dict[Freedom, str] = {
-    "space": "Hold in space (x, y and z)",
-    "screen": "Hold on screen (depth free)",
-}
 
 
 @dataclass
@@ -95,6 +90,7 @@ class View:
     """Toggles that panels change in place."""
 
     weights: WeightsView = field(default_factory=WeightsView)
+    pins: PinsView = field(default_factory=PinsView)
     freedom: Freedom = "space"
     """What new pins constrain."""
     symmetric: bool = False

@@ -1,57 +1,25 @@
-"""The drag tool: turns presses, moves and releases on the mesh into edits of the pins."""
+"""The drag tool: turns what mouse and keys do over the face into edits of the pins."""
 
-from dataclasses import dataclass, field, replace
-from math import hypot
+from collections.abc import Collection
+from dataclasses import dataclass, field
 
-import numpy as np
-
-from facepin.core.arrays import Indices, Points
-from facepin.core.camera import Camera, Viewport
-from facepin.core.events import Event, KeyPressed, PointerMoved, PointerPressed, PointerReleased
-from facepin.core.picking import pick
-from facepin.core.pose import Freedom, Pin, Pose, as_vector
-from facepin.core.rig import Rig
+from facepin.core.events import (
+    Event,
+    KeyPressed,
+    KeyReleased,
+    PointerMoved,
+    PointerPressed,
+    PointerReleased,
+)
+from facepin.core.pose import Pin
+from facepin.session.box import span
 from facepin.session.edit import Edit
-
-GRAB_RADIUS = 9.0
-"""How near to a pin's marker a press takes the pin, in pixels at 1x scale."""
-DEAD_ZONE = 3.0
-"""How far the mouse moves before a click becomes a drag, in pixels at 1x scale."""
-HIDDEN_DEPTH = 0.15
-"""How far behind the skin a pin can be and still be pressed, as a share of the face height."""
-
-
-@dataclass(frozen=True, eq=False)
-class Sight:
-    """What the tool needs to know of the pane under the mouse: what is seen there and how."""
-
-    rig: Rig
-    triangles: Indices
-    """(t, 3) those that are drawn: what is not seen can't be pressed."""
-    pose: Pose
-    """As it is at the last undo step when a gesture begins, as it is shown while one goes on."""
-    positions: Points
-    """(n, 3) as drawn."""
-    camera: Camera
-    viewport: Viewport
-    scale: float = 1.0
-    """Framebuffer pixels per pixel of a 1x screen."""
-    freedom: Freedom = "space"
-    """What new pins constrain."""
-
-
-@dataclass(frozen=True)
-class _Hold:
-    """A pin in the user's hand."""
-
-    vertex: int
-    pins: tuple[Pin, ...]
-    """All pins as they were when the gesture began, the held one among them."""
-    placed: bool
-    """The press made this pin."""
-    pressed: tuple[float, float]
-    sight: Sight
-    moved: bool = False
+from facepin.session.gesture import Gesture
+from facepin.session.hold import Hold, take
+from facepin.session.moving import movable
+from facepin.session.nudge import Nudge, Step, step_of
+from facepin.session.sight import Sight, pin_at
+from facepin.session.stroke import sketch
 
 
 @dataclass
@@ -62,103 +30,117 @@ class DragTool:
     """Vertices of the selected pins."""
     hovered: int | None = None
     """Vertex of the pin under the mouse."""
-    _hold: _Hold | None = field(default=None)
+    gesture: Gesture | None = None
+    """What is going on from press to release."""
+    remark: str = ""
+    """Something to say to the user; who says it empties it."""
+    _before: frozenset[int] = frozenset()
+    """What was selected when the gesture began."""
+    _nudge: Nudge | None = field(default=None)
 
     @property
     def holding(self) -> bool:
         """Whether a gesture is going on: it then gets all pointer events until the release."""
-        return self._hold is not None
+        return self.gesture is not None
 
     @property
-    def held(self) -> int | None:
-        """Vertex of the pin in the hand."""
-        return self._hold.vertex if self._hold else None
+    def held(self) -> frozenset[int]:
+        """Vertices of the pins in the hand."""
+        return self.gesture.vertices if isinstance(self.gesture, Hold) else frozenset()
+
+    @property
+    def nudging(self) -> bool:
+        """Whether keys have moved pins and may go on to: `settle` ends that after a while."""
+        return self._nudge is not None
 
     def handle(self, event: Event, sight: Sight) -> Edit | None:
         """Take one event; return what it changes, or None.
 
-        A press on nothing takes no hold, so that the caller can give it to the camera.  Esc ends a gesture;
-        the caller then cancels the session's.
+        A press on nothing takes no hold, so that the caller can give it to the camera.  Esc ends what is
+        going on, the caller then cancels the session's gesture; else it takes the selection away.
         """
         match event:
-            case PointerPressed(button="left") if self._hold is None:
+            case PointerPressed(button="left") if self.gesture is None:
                 return self._press(event, sight)
-            case PointerMoved() if self._hold is not None:
-                return self._move(self._hold, (event.x, event.y))
-            case PointerMoved():
-                self.hovered = pin_at(sight, (event.x, event.y))
-            case PointerReleased(button="left") if self._hold is not None:
-                return self._release(self._hold, (event.x, event.y))
+            case PointerMoved(x, y) if self.gesture is not None:
+                return self._listened(self.gesture, self.gesture.move((x, y)))
+            case PointerReleased(x, y, "left") if self.gesture is not None:
+                gesture, self.gesture = self.gesture, None
+                return self._listened(gesture, gesture.release((x, y)))
+            case PointerMoved(x, y):
+                self.hovered = pin_at(sight, (x, y))
             case KeyPressed(key="escape"):
-                self._hold = None
+                self._give_up()
+            case KeyPressed(key) if self.gesture is None and (step := step_of(event)) is not None:
+                return self._nudged(key, step, sight)
+            case KeyReleased(key) if self._nudge is not None:
+                self._nudge.release(key)
         return None
+
+    def settle(self, now: float) -> Edit | None:
+        """Return what keys have moved as one undo step, once they rest; `now` is a clock in seconds."""
+        return self.finish() if self._nudge is not None and self._nudge.rests(now) else None
+
+    def finish(self) -> Edit | None:
+        """Return what keys have moved as one undo step, at once."""
+        nudge, self._nudge = self._nudge, None
+        return nudge.edit(final=True) if nudge is not None else None
+
+    def forget_gone(self, pins: Collection[Pin]) -> None:
+        """Select no pins but those that are there."""
+        there = {pin.vertex for pin in pins}
+        if not self.selected <= there:
+            self.selected &= there
+        if self.hovered not in there:
+            self.hovered = None
 
     def _press(self, event: PointerPressed, sight: Sight) -> Edit | None:
-        pixel = (event.x, event.y)
+        """Begin the gesture that fits what is under the mouse, if anything is."""
+        pixel, adds = (event.x, event.y), event.modifiers.shift
+        self._before = self.selected
+        if event.modifiers.control:
+            self.gesture = span(pixel, sight, self.selected, adds=adds)
+            return None
         vertex = pin_at(sight, pixel)
-        if vertex is not None:
-            self._take(_Hold(vertex, sight.pose.pins, False, pixel, sight), event)
-            return None
-        hit = pick(sight.positions, sight.triangles, sight.camera, sight.viewport, pixel)
-        if hit is None:
-            self.selected = frozenset()
-            return None
-        if any(pin.vertex == hit.vertex for pin in sight.pose.pins):
-            self._take(_Hold(hit.vertex, sight.pose.pins, False, pixel, sight), event)
-            return None
-        goal = as_vector(sight.positions[hit.vertex].astype(np.float64))
-        right, up, _ = sight.camera.axes
-        pin = Pin(hit.vertex, goal, sight.freedom, (as_vector(right), as_vector(up)))
-        pins = (*sight.pose.pins, pin)
-        self._take(_Hold(hit.vertex, pins, True, pixel, sight), event)
-        return Edit("Place pin", False, pins)
-
-    def _take(self, hold: _Hold, event: PointerPressed) -> None:
-        self._hold = hold
-        if event.modifiers.shift:
-            self.selected = self.selected ^ {hold.vertex}
-        else:
-            self.selected = frozenset({hold.vertex})
-
-    def _move(self, hold: _Hold, pixel: tuple[float, float]) -> Edit | None:
-        if not hold.moved:
-            if hypot(pixel[0] - hold.pressed[0], pixel[1] - hold.pressed[1]) < DEAD_ZONE * hold.sight.scale:
+        if vertex is None and (hit := sight.hit(pixel)) is not None:
+            vertex = hit.vertex
+            if sight.stroke is not None:
+                self.gesture = sketch(pixel, sight.stroke, sight, self.selected if adds else frozenset())
                 return None
-            self._hold = replace(hold, moved=True)
-        return self._dragged(hold, pixel, final=False)
+        if vertex is None:
+            if adds or sight.beside:
+                self.gesture = span(pixel, sight, self.selected, adds=adds, keeps=adds)
+            return None
+        hold = take(vertex, pixel, sight, self.selected, adds=adds)
+        self.gesture = hold
+        return self._listened(hold, Edit("Place pin", False, hold.pins) if hold.placed else None)
 
-    def _release(self, hold: _Hold, pixel: tuple[float, float]) -> Edit | None:
-        self._hold = None
-        if hold.moved:
-            return self._dragged(hold, pixel, final=True)
-        return Edit("Place pin", True, hold.pins) if hold.placed else None
+    def _listened(self, gesture: Gesture, edit: Edit | None) -> Edit | None:
+        """Take over what a gesture selects and remarks; pass its edit on."""
+        self.selected = gesture.selected
+        self.remark, gesture.remark = gesture.remark or self.remark, ""
+        return edit
 
-    def _dragged(self, hold: _Hold, pixel: tuple[float, float], *, final: bool) -> Edit:
-        """Move the held goal as far in the plane that faces the camera as the mouse went since the press."""
-        sight = hold.sight
-        (pin,) = (pin for pin in hold.pins if pin.vertex == hold.vertex)
-        start = np.array(pin.goal)
-        here = sight.camera.plane_point(pixel, start, sight.viewport)
-        there = sight.camera.plane_point(hold.pressed, start, sight.viewport)
-        right, up, _ = sight.camera.axes
-        moved = replace(pin, goal=as_vector(start + here - there), axes=(as_vector(right), as_vector(up)))
-        pins = tuple(moved if pin.vertex == hold.vertex else pin for pin in hold.pins)
-        return Edit("Drag pin", final, pins, solve=True)
+    def _give_up(self) -> None:
+        if self.gesture is not None:
+            self.gesture, self.selected = None, self._before
+        elif self._nudge is not None:
+            self._nudge = None
+        else:
+            self.selected = frozenset()
 
-
-def pin_at(sight: Sight, pixel: tuple[float, float]) -> int | None:
-    """Return the vertex of the pin whose marker lies under a pixel (the nearest one), or None."""
-    pins = sight.pose.pins
-    if not pins or not sight.viewport.contains(*pixel):
-        return None
-    at = np.concatenate([sight.positions[[pin.vertex for pin in pins]], [pin.goal for pin in pins]])
-    x, y, depth = sight.camera.project(at, sight.viewport).T
-    gaps = np.hypot(x - pixel[0], y - pixel[1])
-    gaps = np.where(np.isfinite(gaps), gaps, np.inf)
-    nearest = int(np.argmin(gaps))
-    if gaps[nearest] > GRAB_RADIUS * sight.scale:
-        return None
-    # A pin on the far side of the head is seen dimly, and must not be in the way of the skin before it.
-    hit = pick(sight.positions, sight.triangles, sight.camera, sight.viewport, pixel)
-    behind = hit is not None and depth[nearest] > hit.distance + HIDDEN_DEPTH * sight.rig.height
-    return None if behind else pins[nearest % len(pins)].vertex
+    def _nudged(self, key: str, step: Step, sight: Sight) -> Edit | None:
+        """Move the selected pins by a press of a key."""
+        if not self.selected:
+            return None
+        vertices = movable(sight.pose.pins, self.selected)
+        if not vertices:
+            self.remark = "The selected pins are locked or hidden, and stay where they are"
+            return None
+        nudge = self._nudge or Nudge(sight.pose.pins, vertices)
+        if not nudge.move(step, sight):
+            self.remark = "Pins on screen have no depth of their own: only pins in space move along the view"
+            return None
+        nudge.keys.add(key)
+        self._nudge = nudge
+        return nudge.edit(final=False)

@@ -163,8 +163,5 @@ def snapped(rig: Rig, pose: Pose, control: ShapeControl) -> Pose:
     moves = rig.rows_at(vertices) @ rig.amounts(control.heard(pose.weights))
     places = moves.reshape(-1, 3) + rig.neutral[vertices]
     return pose.with_pins(
-        tuple(
-            Pin(pin.vertex, as_vector(place), pin.freedom, pin.axes, pin.stiffness)
-            for pin, place in zip(pose.pins, places, strict=True)
-        )
+        tuple(replace(pin, goal=as_vector(place)) for pin, place in zip(pose.pins, places, strict=True))
     )

@@ -1,0 +1,104 @@
+"""The gesture of the hand that holds pins: a click, or a drag of all that are selected."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from facepin.core.pose import Pin
+from facepin.session.edit import Edit
+from facepin.session.moving import amount, carried, movable
+from facepin.session.sight import Pixel, Sight
+
+
+@dataclass
+class Hold:
+    """Pins in the user's hand; see `Gesture`."""
+
+    pin: Pin
+    """The one that was pressed."""
+    pins: tuple[Pin, ...]
+    """All pins as they were when the gesture began, the pressed one among them."""
+    placed: bool
+    """The press made it."""
+    pressed: Pixel
+    sight: Sight
+    selected: frozenset[int]
+    clicked: frozenset[int]
+    """What is selected after a mere click."""
+    remark: str = ""
+    moved: bool = False
+    vertices: frozenset[int] = field(init=False)
+    """Of the pins that move with the mouse: all that are selected, unless the pressed one can't."""
+
+    def __post_init__(self) -> None:
+        vertices = movable(self.pins, self.selected)
+        self.vertices = vertices if self.pin.vertex in vertices else frozenset()
+
+    def move(self, pixel: Pixel) -> Edit | None:
+        """Drag the pins, once the mouse has left the place where a click would be."""
+        if not self.moved:
+            if not self.sight.apart(pixel, self.pressed):
+                return None
+            self.moved = True
+            self.remark = _refusal(self.pin)
+        return self._dragged(pixel, final=False)
+
+    def release(self, pixel: Pixel) -> Edit | None:
+        """Let go."""
+        if self.placed and not self.sight.rig.rows_at([self.pin.vertex]).any():
+            self.remark = "No shape of this rig moves the point under the new pin"
+        if self.moved:
+            return self._dragged(pixel, final=True)
+        self.selected = self.clicked
+        return Edit("Place pin", True, self.pins) if self.placed else None
+
+    def _dragged(self, pixel: Pixel, *, final: bool) -> Edit | None:
+        """Move the goals as far in the plane that faces the camera as the mouse went since the press."""
+        if not self.vertices:
+            return None
+        camera, viewport = self.sight.camera, self.sight.viewport
+        start = np.array(self.pin.goal)
+        here = camera.plane_point(pixel, start, viewport)
+        there = camera.plane_point(self.pressed, start, viewport)
+        pins = carried(self.pins, self.vertices, here - there, camera)
+        return Edit(f"Drag {amount(len(self.vertices))}", final, pins, solve=True)
+
+
+def take(vertex: int, pressed: Pixel, sight: Sight, selected: frozenset[int], *, adds: bool) -> Hold:
+    """Take the pin on a vertex in the hand; place one where there is none.
+
+    Parameters
+    ----------
+    vertex : int
+        What was pressed.
+    pressed : (x, y)
+        Where.
+    sight : Sight
+        As it was seen at the press.
+    selected : set of int
+        Vertices of the pins selected so far; they stay so if the pressed one is among them.
+    adds : bool
+        Add the pin to them, or take it out with a mere click (Shift).
+    """
+    pins = sight.pose.pins
+    pin = next((pin for pin in pins if pin.vertex == vertex), None)
+    placed = pin is None
+    if pin is None:
+        pin = sight.new_pin(vertex)
+        pins = (*pins, pin)
+    one = frozenset({vertex})
+    if vertex in selected:
+        return Hold(pin, pins, placed, pressed, sight, selected, selected - one if adds else one)
+    now = selected | one if adds else one
+    if pin.hidden:
+        return Hold(pin, pins, placed, pressed, sight, selected, selected, remark=_refusal(pin))
+    return Hold(pin, pins, placed, pressed, sight, now, now)
+
+
+def _refusal(pin: Pin) -> str:
+    """Say why a pin doesn't move; nothing where it does."""
+    if pin.hidden:
+        return f"A hidden pin holds this point ({pin.title}): show hidden pins to drag it"
+    if pin.locked:
+        return f"This pin is locked ({pin.title}): unlock it to drag it (right click, or L)"
+    return ""

@@ -27,7 +27,7 @@ LIFT = 0.006
 """Height above the skin where light is measured, in radii of the face: more than a step of the depth map."""
 CONTRAST = 1.5
 """By how much shadows of lamps are sharper than a plane through what is seen of the room would have them."""
-OPENED_SHARE = 0.6
+OPENED_SHARE = 0.8
 """How much of the light in an open mouth counts: teeth are seen, and closed lips keep their line."""
 
 
@@ -91,9 +91,12 @@ class Openness:
         finally:
             maps.release()
         (shut, shut_towards), (wide, wide_towards) = baked
-        wide = np.float32(OPENED_SHARE) * np.sqrt(wide)
-        self.values = smoothed(np.maximum(shut, wide), rig)
-        self.towards = smoothed(np.where((shut < wide)[:, None], wide_towards, shut_towards), rig, 5)
+        # The open mouth counts for what the closed one hides: teeth are not black, and necks keep their shadow.
+        hidden = np.clip(1 - 2 * shut, 0, 1) * (OPENED_SHARE * np.sqrt(wide) > shut)
+        values = shut + hidden * (OPENED_SHARE * np.sqrt(wide) - shut)
+        towards = shut_towards + hidden[:, None] * (wide_towards - shut_towards)
+        self.values = smoothed(values.astype(np.float32), rig)
+        self.towards = smoothed(towards.astype(np.float32), rig, 5)
 
 
 def _opening(arrived: Points, offered: Points) -> tuple[Points, Points]:

@@ -91,7 +91,7 @@ class Openness:
         finally:
             maps.release()
         (shut, shut_towards), (wide, wide_towards) = baked
-        # The open mouth counts for what the closed one hides: teeth are not black, and necks keep their shadow.
+        # The open mouth counts for what the closed one hides: teeth are seen, and necks keep their shadow.
         hidden = np.clip(1 - 2 * shut, 0, 1) * (OPENED_SHARE * np.sqrt(wide) > shut)
         values = shut + hidden * (OPENED_SHARE * np.sqrt(wide) - shut)
         towards = shut_towards + hidden[:, None] * (wide_towards - shut_towards)

@@ -32,7 +32,7 @@ MATERIALS = {
     "lashR": (0.5, 0.0, 0.4),
     "earL": (0.46, 1.0, 0.75),
     "earR": (0.46, 1.0, 0.75),
-    "hair": (0.42, 0.0, 0.7),
+    "hair": (0.48, 0.0, 0.7),
     "shirt": (0.75, 0.0, 0.35),
 }
 """Parts in the order of their faces: (roughness, translucency, specular)."""

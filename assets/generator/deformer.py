@@ -8,10 +8,10 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from generator.anatomy import Anatomy
-from generator.landmarks import FaceMap
+from generator.landmarks import REFERENCE, FaceMap
 from generator.meshes import vertex_normals
 from generator.openings import lip_curves
-from generator.skin import LIP_PROFILE, Skin
+from generator.skin import LIP_PROFILE, Skin, crease_heights
 from generator.topology import EYE_LOOP, EYE_RINGS, LIP_RINGS, MOUTH_RINGS
 from generator.vectors import MIRROR, Array, Ints, Mask, blob, mix, smoothstep, turn, unit
 
@@ -20,10 +20,16 @@ BAG_FOLLOWS = ((-1, 1.0), (-2, 0.97), (-3, 0.8), (-4, 0.5), (-5, 0.22))
 """(ring, share of the lips' motion that the inside of the mouth follows)"""
 LID_FOLLOWS = {-3: 0.8, -2: 1, -1: 1, 0: 1, 1: 0.95, 2: 0.87, 3: 0.76, 4: 0.62, 5: 0.47, 6: 0.32}
 """Share of the margin's turn that each lid ring makes."""
-BLINK_BULGE = {-3: 0, -2: 0, -1: 0.03, 0: 0.052, 1: 0.058, 2: 0.058, 3: 0.048, 4: 0.035, 5: 0.018, 6: 0.006}
+OPENING_FOLLOWS = 0.45
+"""Exponent of that share for a lid that opens: it slides under the skin above it, and must not pile up."""
+BLINK_BULGE = {-3: 0, -2: 0, -1: 0.04, 0: 0.066, 1: 0.073, 2: 0.070, 3: 0.056, 4: 0.040, 5: 0.020, 6: 0.006}
 """How far a closed lid rises, in eyeball radii: half way, the straight path of a blink would cut the eye."""
 LIFT_FOLLOWS = {-1: 0.9, 0: 1.0, 1: 1.0, 2: 1.0, 3: 1.0, 4: 0.9, 5: 0.5, 6: 0.2}
 """Share of a lift that each lid ring makes."""
+UNFOLDS = 1.2
+"""Share of its crease that the upper lid smooths on the whole way to the other margin."""
+JAW_LENGTH = 0.55
+"""Share of the way from chin to the angle of the jaw that goes wholly with it."""
 CANTHUS_HOLD = 0.70
 """Share of its turn that a lid loses at the corners of the eye outside the margin: else skin folds over."""
 
@@ -188,6 +194,7 @@ class SkinDeformer:
         axes[sine < 1e-6] = 0
         angles = np.where(is_upper, upper, lower) * np.arctan2(sine, (margin * opposite).sum(1))
 
+        folds = crease_heights(self.anatomy.eye)
         moved = np.zeros_like(self.vertices)
         for k, share in LID_FOLLOWS.items():
             ring = skin.eye_rings[k]
@@ -195,9 +202,12 @@ class SkinDeformer:
             rise = (blink * BLINK_BULGE[k] + lift * LIFT_FOLLOWS.get(k, 0)) * (1 - s**4) * radius
             if k >= 0:
                 rise = rise + np.where(is_upper, 0.006, 0) * blink
+            if k in folds:
+                rise[: len(folds[k])] -= UNFOLDS * max(upper, 0) * folds[k]
             length = np.linalg.norm(start, axis=1) + rise
             held = 1 - CANTHUS_HOLD * s**4 if k > 0 else 1.0
-            end = unit(turn(start, axes, angles * share * held)) * length[:, None]
+            turned = np.where(angles < 0, share**OPENING_FOLLOWS, share) * held
+            end = unit(turn(start, axes, angles * turned)) * length[:, None]
             end = end + np.array([*shift, 0]) * share * (1 - s**3)[:, None]
             moved[ring] = end - start
         left = self.vertices[:, 0] > 0
@@ -235,13 +245,20 @@ class SkinDeformer:
         """Return (n,) how far each skin vertex goes with the jaw."""
         v, across = self.reference, np.abs(self.across)
         y, z = v[:, 1], v[:, 2]
-        lower, upper = 0.40 + 0.60 * (1 - across**3), 0.40 * across**2.6
+        lower, upper = 0.40 + 0.60 * (1 - across**3.4) ** 0.75, 0.40 * across**2.6
         weights = np.zeros(self.count)
         weights[self.lip] = np.where(self.side == 0, 0.40, np.where(self.side < 0, lower, upper))[self.lip]
         chin = (y < -7.6) & (y > -10.4) & (z > 3.6) & (self.off_centre < 2.8)
         chin &= ~self.lip & ~self.inside & (self.mouth_ring > LIP_RINGS + 2)
         weights[chin] = 1
-        handles = self.lip | chin
+        start, end = np.array(REFERENCE.skull.jaw.start), np.array(REFERENCE.skull.jaw.end)
+        from_start = np.c_[self.off_centre, v[:, 1:]] - start
+        back = np.clip(from_start @ (end - start) / ((end - start) @ (end - start)), 0, 1)
+        away = from_start - back[:, None] * (end - start)
+        bone = (np.linalg.norm(away, axis=1) < 2.0) & (away[:, 1] < 0) & (back > 0) & (back < JAW_LENGTH) & ~chin
+        bone &= ~self.lip & ~self.inside & (self.mouth_ring > LIP_RINGS + 2)
+        weights[bone] = mix(1, 0.75, back[bone] / JAW_LENGTH)
+        handles = self.lip | chin | bone
         still = (y > -2.2) | (y < -12.8) | (z < -1.2) | ((z < 1.6) & (y < -11))
         still |= (self.eye_ring < 8) | self.inside | (self.brush((0, -2.6, 8.1), (1.0, 1.0, 1.5)) > 0.4)
         weights = np.clip(

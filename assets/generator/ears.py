@@ -43,7 +43,7 @@ def ear(field: HeadField) -> Mesh:
     local = flat[:, [2, 1, 0]]  # (out, up, forward)
     hinge = np.array([0, 0, 0.6])
     local = (local - hinge) @ rotation((0, 1, 0), -33).T + hinge
-    local = local @ rotation((1, 0, 0), -8).T @ rotation((0, 0, 1), -3).T * 1.14
+    local = local @ rotation((1, 0, 0), -8).T @ rotation((0, 0, 1), -3).T * field.anatomy.skull.ear_size
     root = field.raycast(np.array([[0, -0.9, -0.55]]), np.array([[1.0, 0, 0]]), 12)[0]
     colour = mix(field.anatomy.colours.skin, field.anatomy.colours.cheek, 0.3)
     local = local + root + np.array([0.16, 0.05, 0.05])

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from generator.anatomy import Hair
 from generator.field import HeadField
 from generator.meshes import Mesh, outwards, strips
 from generator.vectors import MIRROR, Array, columns, curve, mix, repeated, smoothstep, unit
@@ -35,7 +36,7 @@ def hair(field: HeadField) -> Mesh:
         if i == ROWS - 1:
             rows.append(scalp - normal * 0.25)
             continue
-        rows.append(scalp + _volume(normal, t, angle, fringe))
+        rows.append(scalp + _volume(form, normal, t, angle, fringe))
     rows[0][:] = rows[0].mean(0) * np.array([0, 1, 1])
     vertices = np.concatenate(rows)
     mirror = np.concatenate([i * AROUND + (-k) % AROUND for i in range(ROWS)])
@@ -54,9 +55,9 @@ def _wave(angle: Array, t: float) -> Array:
 
 def _shade(angle: Array, t: float) -> Array:
     """Return how light the hair is: dark in grooves and at the hairline, with finer strands between."""
-    grooves = mix(1, 0.72 + 0.40 * _wave(angle, t), smoothstep(0.1, 0.5, t))
+    grooves = mix(1, 0.76 + 0.34 * _wave(angle, t), smoothstep(0.1, 0.5, t))
     strands = 1 + 0.07 * np.sin(angle * 27 + 2.0 * np.sin(t * 4 + angle))
-    return grooves * strands * mix(1, 0.62, smoothstep(0.80, 1, t))
+    return grooves * strands * mix(1, 0.80, smoothstep(0.90, 1, t))
 
 
 def hairline(mesh: Mesh) -> Array:
@@ -65,16 +66,17 @@ def hairline(mesh: Mesh) -> Array:
     return np.concatenate([mix(ring, np.roll(ring, -1, axis=0), share) for share in (0, 0.25, 0.5, 0.75)])
 
 
-def _volume(normal: Array, t: float, angle: Array, fringe: Array) -> Array:
+def _volume(form: Hair, normal: Array, t: float, angle: Array, fringe: Array) -> Array:
     """Return the (AROUND, 3) offset of the hair from the scalp at share `t` of the way to the hairline."""
-    edge = np.sqrt(np.clip((1 - t) / 0.16, 0, 1))
+    edge = np.sqrt(np.clip((1 - t) / 0.22, 0, 1))
     temple = smoothstep(0.9, 1.5, angle) * smoothstep(0.55, 1, t)
-    thick = 0.70 + 1.05 * fringe * smoothstep(0.15, 0.8, t) + 0.1 * np.cos(angle)
+    thick = 0.75 + 0.95 * fringe * smoothstep(0.15, 0.8, t) + 0.1 * np.cos(angle)
     thick = thick * mix(0.25, 1, edge * (2 - edge)) * (1 - 0.55 * temple)
     wave = _wave(angle, t)
-    groove = 0.26 * (1 - wave) ** 2 * smoothstep(0.10, 0.45, t)
+    groove = 0.26 * form.grooves * (1 - wave) ** 2 * smoothstep(0.10, 0.45, t)
     swept = fringe * smoothstep(0.4, 0.95, t) * (1 - 0.6 * smoothstep(0.93, 1, t))
     offset: Array = (
-        normal * (thick * (1 - groove / 0.8))[:, None] + np.array([0, 0.35, 0.25]) * swept[:, None]
+        normal * (form.volume * thick * (1 - groove / 0.8))[:, None]
+        + np.array([0, 0.35, 0.25]) * swept[:, None]
     )
     return offset

@@ -84,7 +84,7 @@ def seal(deformer: SkinDeformer, opened: Array, upper_share: Vector) -> Array:
         meeting = of_upper + np.array(upper_share) * (of_lower - of_upper)
         for k, t in enumerate(LIP_PROFILE):
             ring = deformer.lip_ring(k, right)
-            moved[ring] = np.where(upper, meeting - of_upper, meeting - of_lower) * mix(1, 0.80, t)
+            moved[ring] = np.where(upper, meeting - of_upper, meeting - of_lower) * mix(1, 0.72, t)
     v = deformer.reference
     handles = np.flatnonzero(deformer.lip)
     q = (v - np.array([0, -5.8, 5.5])) / np.array([5.6, 4.6, 6.5])

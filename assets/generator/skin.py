@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.interpolate import PchipInterpolator
 
-from generator.anatomy import Anatomy
+from generator.anatomy import Anatomy, Eye
 from generator.field import HeadField
 from generator.landmarks import FaceMap
 from generator.openings import LipCurves, lid_margin, lip_curves
@@ -33,6 +33,8 @@ LOWER_FULLNESS = (-0.70, 0.48, 0.96, 1.0, 0.60, 0.04)
 RELAXATIONS = 24
 CREASE = {4: 0.15, 5: -1.0, 6: 0.50, 7: 0.55, 8: 0.25}
 """Height of the lid rings at the crease of the upper lid."""
+LID_SLOPE = 5
+"""Ring up to which the lids rise."""
 LIP_ROLL = {4: 0.6, 5: 1.0, 6: 0.72, 7: 0.40, 8: 0.15}
 """How far the mouth rings come forward with a full lip."""
 
@@ -64,6 +66,7 @@ def build_skin(field: HeadField) -> Skin:
     _place_mouth_rings(vertices, half, field, curves)
     middle = _middle(half)
     _relax(vertices, half, field, middle)
+    _ease_lids(vertices, half, anatomy)
     _fold_upper_lid(vertices, half, anatomy)
     _place_lips(vertices, half, field, curves)
     _roll_lips(vertices, half, anatomy, curves)
@@ -99,8 +102,8 @@ def _place_grid(vertices: Array, half: HalfGrid, field: HeadField) -> None:
             (11, 5, 0),
             (17, eye_y + 1.195 * eye.radius, 0),
             (27, eye_y - 1.024 * eye.radius, 0),
-            (39, mouth.height + 1.60, 0),
-            (47, mouth.height - 1.65, 0),
+            (39, mouth.height + 1.60 + 0.4 * mouth.corner_lift, 0),
+            (47, mouth.height - 1.65 + 0.4 * mouth.corner_lift, 0),
             (53, chin_y + 0.05, -14),
             (58, chin_y + 0.55, -34),
             (62, chin_y - 0.75, -46),
@@ -148,9 +151,11 @@ def _place_mouth_rings(vertices: Array, half: HalfGrid, field: HeadField, curves
     """Put the border of the red on the face and spread the rings outside it evenly."""
     x, y = curves.border_x, curves.border_y
     border = np.stack([x, y, field.front(x, y)], 1)
+    outside = border + np.outer(0.16 * curves.across**6, (1, 0, 0))
     for k in range(LIP_RINGS - 1, MOUTH_RINGS):
         share = (k - LIP_RINGS + 1) / (MOUTH_RINGS - LIP_RINGS + 1)
-        vertices[half.mouth_rings[k]] = mix(border, vertices[half.mouth_rings[MOUTH_RINGS]], share)
+        start = border if k < LIP_RINGS else outside
+        vertices[half.mouth_rings[k]] = mix(start, vertices[half.mouth_rings[MOUTH_RINGS]], share)
 
 
 def _middle(half: HalfGrid) -> Mask:
@@ -181,11 +186,10 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
     free[half.grid[ROWS]] = free[0] = False
     for k in range(3, EYE_RINGS):
         free[half.eye_rings[k]] = True
-    for k in range(LIP_RINGS + 1, MOUTH_RINGS):
+    for k in range(LIP_RINGS, MOUTH_RINGS):
         free[half.mouth_rings[k]] = True
     moving = np.flatnonzero(free)
-    for start in (moving, half.mouth_rings[LIP_RINGS]):
-        vertices[start] = field.project(vertices[start])
+    vertices[moving] = field.project(vertices[moving])
     for round_ in range(RELAXATIONS):
         step = ((weights @ vertices) / total[:, None] - vertices)[moving]
         step[middle[moving], 0] = 0
@@ -196,15 +200,31 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
         vertices[middle, 0] = 0
 
 
+def _ease_lids(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
+    """Spread the lids evenly between the margin and the skin about them, without a fold where that stands out."""
+    centre = np.array(anatomy.eye.centre)
+    margin, skin = (vertices[half.eye_rings[k]] - centre for k in (0, LID_SLOPE))
+    lowest = anatomy.eye.radius * anatomy.eye.lid_radius
+    out = np.maximum(np.linalg.norm(skin, axis=1), lowest)
+    for k in range(1, LID_SLOPE):
+        share = k / LID_SLOPE
+        length = mix(lowest, out, share**1.6)
+        vertices[half.eye_rings[k]] = centre + unit(mix(unit(margin), unit(skin), share)) * length[:, None]
+
+
 def _fold_upper_lid(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
     """Press the crease into the upper lid and let the skin above it hang over a little."""
     centre = np.array(anatomy.eye.centre)
-    count = EYE_LOOP // 2 + 1
-    share = 1 - np.abs(np.linspace(-1, 1, count)) ** 4
-    for k, height in CREASE.items():
-        ring = half.eye_rings[k][:count]
-        out = unit(vertices[ring] - centre)
-        vertices[ring] += out * (height * anatomy.eye.crease * share)[:, None]
+    for k, height in crease_heights(anatomy.eye).items():
+        ring = half.eye_rings[k][: len(height)]
+        vertices[ring] += unit(vertices[ring] - centre) * height[:, None]
+
+
+def crease_heights(eye: Eye) -> dict[int, Array]:
+    """Return ring -> heights of the crease along the upper lid, which runs out softly at the inner corner."""
+    along = np.linspace(-1, 1, EYE_LOOP // 2 + 1)
+    share = smoothstep(-0.8, 0.15, along) * (1 - np.abs(along) ** 4)
+    return {k: height * eye.crease * share for k, height in CREASE.items()}
 
 
 def _roll_lips(vertices: Array, half: HalfGrid, anatomy: Anatomy, curves: LipCurves) -> None:
@@ -231,11 +251,11 @@ def _place_lips(vertices: Array, half: HalfGrid, field: HeadField, curves: LipCu
         full = np.where(
             curves.upper, mouth.upper_fullness * upper_profile(t), mouth.lower_fullness * lower_profile(t)
         )
-        z = mix(contact_z, border_z, t**1.2) + full * thickness - 0.15 * corner * (1 - t)
+        z = mix(contact_z, border_z, t**1.2) + full * thickness - 0.24 * corner * (1 - t)
         x = mix(curves.contact_x, curves.border_x, t)
         y = mix(curves.contact_y, curves.border_y, t)
         vertices[half.mouth_rings[k]] = np.stack([x, y, z], 1)
-    vertices[half.mouth_rings[0], 1] += np.where(curves.upper, 0.003, -0.003) * (curves.along < 1)
+    vertices[half.mouth_rings[0], 1] += np.where(curves.upper, 0.0006, -0.0006) * (curves.along < 1)
 
 
 def _place_bag(vertices: Array, half: HalfGrid, anatomy: Anatomy, curves: LipCurves) -> None:

@@ -154,7 +154,7 @@ class Colours:
     shirt: Colour = (0.16, 0.30, 0.36)
     teeth: Colour = (0.965, 0.95, 0.915)
     gum: Colour = (0.80, 0.42, 0.42)
-    tongue: Colour = (0.80, 0.38, 0.40)
+    tongue: Colour = (0.87, 0.47, 0.48)
 
 
 @dataclass(frozen=True)

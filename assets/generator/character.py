@@ -19,7 +19,7 @@ from generator.skin import Skin, build_skin
 from generator.vectors import MIRROR, Array, Ints
 
 MATERIALS = {
-    "skin": (0.46, 1.0, 0.75),
+    "skin": (0.50, 1.0, 0.75),
     "eyeL": (0.09, 0.15, 1.0),
     "eyeR": (0.09, 0.15, 1.0),
     "teethUpper": (0.22, 0.35, 0.9),
@@ -30,8 +30,8 @@ MATERIALS = {
     "browR": (0.6, 0.0, 0.5),
     "lashL": (0.5, 0.0, 0.4),
     "lashR": (0.5, 0.0, 0.4),
-    "earL": (0.46, 1.0, 0.75),
-    "earR": (0.46, 1.0, 0.75),
+    "earL": (0.50, 1.0, 0.75),
+    "earR": (0.50, 1.0, 0.75),
     "hair": (0.48, 0.0, 0.7),
     "shirt": (0.75, 0.0, 0.35),
 }

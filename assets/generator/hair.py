@@ -24,7 +24,7 @@ def hair(field: HeadField) -> Mesh:
     lowest = np.arctan2(line - centre[1], 7.0 * np.where(angle < 1.0, 1.02, 0.92))
     fringe = np.exp(-((angle / 0.75) ** 2))
     rows = []
-    locks = form.locks * (_wave(angle, 1.0) - 0.5)
+    locks = form.locks * (_wave(angle, 1.0) - 0.5) * smoothstep(2.6, 1.4, angle)
     for i in range(ROWS):
         t = min(i / (ROWS - 2), 1.0)
         elevation = mix(np.pi / 2, lowest + locks * smoothstep(0.5, 1, t), t**0.9)

@@ -99,7 +99,7 @@ def _tongue_out(character: Character, deformer: SkinDeformer, jaw: Jaw) -> Shape
     f = np.clip((place[:, 2] - (place[:, 2].max() - 4.3)) / 4.3, 0, 1)  # 0 root .. 1 tip
     drop = -0.95 * smoothstep(0.55, 1.05, f) ** 1.3 + 0.42 * smoothstep(0.15, 0.6, f)
     flatten = -0.25 * (place[:, 1] - place[:, 1].mean()) * smoothstep(0.3, 0.8, f)
-    out = columns(-0.10 * place[:, 0] * smoothstep(0.6, 1, f), drop + flatten, 2.75 * smoothstep(0, 0.9, f))
+    out = columns(0.10 * place[:, 0] * smoothstep(0.5, 1, f), drop + flatten, 2.75 * smoothstep(0, 0.9, f))
     return Shape(
         opened.skin + deformer.mouth(tongue_lips),
         {**opened.parts, "tongue": opened.parts["tongue"] + out},

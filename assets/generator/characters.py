@@ -24,7 +24,15 @@ ADA = Anatomy(
         nostril=Ball((0.46, -3.08, 7.66), (0.27, 0.42, 0.40), 0.24),
         philtrum=Bone((0, -3.6, 7.98), (0, -4.35, 7.98), (0.14, 0.20), 0.6),
     ),
-    eye=Eye(centre=(3.48, 0.0, 4.6), upper_opening=1.04, lower_opening=0.88, outer_corner=0.24, crease=0.10, socket=1.13, pupil=0.25),
+    eye=Eye(
+        centre=(3.48, 0.0, 4.6),
+        upper_opening=1.04,
+        lower_opening=0.88,
+        outer_corner=0.24,
+        crease=0.10,
+        socket=1.13,
+        pupil=0.25,
+    ),
     mouth=Mouth(
         height=-5.2,
         upper_lip=0.60,

@@ -9,9 +9,10 @@ from scipy.sparse.linalg import splu
 
 from generator.anatomy import Anatomy
 from generator.landmarks import REFERENCE, FaceMap
+from generator.lids import crease_heights
 from generator.meshes import vertex_normals
 from generator.openings import lip_curves
-from generator.skin import LIP_PROFILE, Skin, crease_heights
+from generator.skin import LIP_PROFILE, Skin
 from generator.topology import EYE_LOOP, EYE_RINGS, LIP_RINGS, MOUTH_RINGS
 from generator.vectors import MIRROR, Array, Ints, Mask, blob, mix, smoothstep, turn, unit
 
@@ -29,7 +30,9 @@ LIFT_FOLLOWS = {-1: 0.9, 0: 1.0, 1: 1.0, 2: 1.0, 3: 1.0, 4: 0.9, 5: 0.5, 6: 0.2}
 UNFOLDS = 1.2
 """Share of its crease that the upper lid smooths on the whole way to the other margin."""
 JAW_LENGTH = 0.55
-"""Share of the way from chin to the angle of the jaw that goes wholly with it."""
+"""Share of the way from chin to the angle of the jaw whose skin goes with it."""
+JAW_REACH = 2.0
+"""How far from the bone that skin lies."""
 CANTHUS_HOLD = 0.70
 """Share of its turn that a lid loses at the corners of the eye outside the margin: else skin folds over."""
 
@@ -241,6 +244,16 @@ class SkinDeformer:
         ring = self.skin.mouth_rings[k]
         return self.mirror[ring] if right else ring
 
+    def _along_jaw(self) -> tuple[Array, Mask]:
+        """Return (n,) the share of the way back along the jaw, and which skin lies under its front part."""
+        bone = REFERENCE.skull.jaw
+        start, along = np.array(bone.start), np.array(bone.end) - np.array(bone.start)
+        from_start = np.c_[self.off_centre, self.reference[:, 1:]] - start
+        back = from_start @ along / (along @ along)
+        away = from_start - np.clip(back, 0, 1)[:, None] * along
+        below = (np.linalg.norm(away, axis=1) < JAW_REACH) & (away[:, 1] < 0)
+        return back, below & (back > 0) & (back < JAW_LENGTH)
+
     def jaw_weights(self) -> Array:
         """Return (n,) how far each skin vertex goes with the jaw."""
         v, across = self.reference, np.abs(self.across)
@@ -251,14 +264,10 @@ class SkinDeformer:
         chin = (y < -7.6) & (y > -10.4) & (z > 3.6) & (self.off_centre < 2.8)
         chin &= ~self.lip & ~self.inside & (self.mouth_ring > LIP_RINGS + 2)
         weights[chin] = 1
-        start, end = np.array(REFERENCE.skull.jaw.start), np.array(REFERENCE.skull.jaw.end)
-        from_start = np.c_[self.off_centre, v[:, 1:]] - start
-        back = np.clip(from_start @ (end - start) / ((end - start) @ (end - start)), 0, 1)
-        away = from_start - back[:, None] * (end - start)
-        bone = (np.linalg.norm(away, axis=1) < 2.0) & (away[:, 1] < 0) & (back > 0) & (back < JAW_LENGTH) & ~chin
-        bone &= ~self.lip & ~self.inside & (self.mouth_ring > LIP_RINGS + 2)
-        weights[bone] = mix(1, 0.75, back[bone] / JAW_LENGTH)
-        handles = self.lip | chin | bone
+        back, below = self._along_jaw()
+        edge = below & (self.mouth_ring > LIP_RINGS + 2) & ~self.lip & ~self.inside & ~chin
+        weights[edge] = mix(1, 0.75, back[edge] / JAW_LENGTH)
+        handles = self.lip | chin | edge
         still = (y > -2.2) | (y < -12.8) | (z < -1.2) | ((z < 1.6) & (y < -11))
         still |= (self.eye_ring < 8) | self.inside | (self.brush((0, -2.6, 8.1), (1.0, 1.0, 1.5)) > 0.4)
         weights = np.clip(

@@ -200,7 +200,7 @@ FOLDS: dict[str, tuple[tuple[tuple[float, float], ...], float, float, float]] = 
 
 
 def folded(deformer: SkinDeformer, line: Array, width: float, depth: float, height: float) -> Array:
-    """Return the (n, 3) displacement of a soft fold along a line: a groove, and flesh that rolls outside it."""
+    """Return the (n, 3) displacement of a soft fold along a line: a groove, and flesh that rolls over it."""
     place = deformer.reference[:, :2]
     start, along = line[:-1], np.diff(line, axis=0)
     share = np.clip(((place[:, None] - start) * along).sum(2) / (along**2).sum(1), 0, 1)

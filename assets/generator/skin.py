@@ -6,13 +6,13 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.interpolate import PchipInterpolator
 
-from generator.anatomy import Anatomy, Eye
+from generator.anatomy import Anatomy
 from generator.field import HeadField
 from generator.landmarks import FaceMap
-from generator.openings import LipCurves, lid_margin, lip_curves
+from generator.lids import ease_lids, fold_upper_lid, place_eye_rings
+from generator.openings import LipCurves, lip_curves
 from generator.topology import (
     COLUMNS,
-    EYE_LOOP,
     EYE_RINGS,
     LIP_RINGS,
     MOUTH_BAG,
@@ -31,10 +31,6 @@ LIP_PROFILE = (0, 0.10, 0.28, 0.54, 0.80, 1)
 UPPER_FULLNESS = (-0.75, 0.46, 0.95, 1.0, 0.58, 0.06)
 LOWER_FULLNESS = (-0.70, 0.48, 0.96, 1.0, 0.60, 0.04)
 RELAXATIONS = 24
-CREASE = {4: 0.15, 5: -1.0, 6: 0.50, 7: 0.55, 8: 0.25}
-"""Height of the lid rings at the crease of the upper lid."""
-LID_SLOPE = 5
-"""Ring up to which the lids rise."""
 LIP_ROLL = {4: 0.6, 5: 1.0, 6: 0.72, 7: 0.40, 8: 0.15}
 """How far the mouth rings come forward with a full lip."""
 
@@ -62,12 +58,12 @@ def build_skin(field: HeadField) -> Skin:
     curves = lip_curves(anatomy.mouth)
     vertices = np.zeros((half.count, 3))
     _place_grid(vertices, half, field)
-    _place_eye_rings(vertices, half, anatomy)
+    place_eye_rings(vertices, half, anatomy)
     _place_mouth_rings(vertices, half, field, curves)
     middle = _middle(half)
     _relax(vertices, half, field, middle)
-    _ease_lids(vertices, half, anatomy)
-    _fold_upper_lid(vertices, half, anatomy)
+    ease_lids(vertices, half, anatomy)
+    fold_upper_lid(vertices, half, anatomy)
     _place_lips(vertices, half, field, curves)
     _roll_lips(vertices, half, anatomy, curves)
     _place_bag(vertices, half, anatomy, curves)
@@ -122,31 +118,6 @@ def _place_grid(vertices: Array, half: HalfGrid, field: HeadField) -> None:
     vertices[: len(origins)] = field.raycast(origins, directions, 15)
 
 
-def _place_eye_rings(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
-    """Put the margin and four rings on the lid sphere, the lining behind it, and blend out to the grid."""
-    eye = anatomy.eye
-    centre, radius = np.array(eye.centre), eye.radius * eye.lid_radius
-    margin = lid_margin(eye)
-    middle = unit(margin.mean(0) + np.array([0, 0.02, 0]))
-    away = unit(margin - (margin @ middle)[:, None] * middle)
-    opening = np.arccos(np.clip(margin @ middle, -1, 1))
-    upper = np.arange(EYE_LOOP) <= EYE_LOOP // 2
-    side = np.abs(np.linspace(-1, 1, EYE_LOOP // 2 + 1))
-    side = np.concatenate([side, side[::-1][1:-1]])
-
-    def at(angle: Array, distance: float) -> Array:
-        return centre + distance * (np.cos(angle)[:, None] * middle + np.sin(angle)[:, None] * away)
-
-    vertices[half.eye_rings[0]] = centre + radius * margin
-    width = np.where(upper, 0.36, 0.30) * (1 - 0.35 * side**4)
-    for k in range(1, EYE_RINGS):
-        on_lid = at(opening + width * (k / 5) ** 1.15, radius)
-        share = (k - 4) / (EYE_RINGS - 4) if k > 4 else 0
-        vertices[half.eye_rings[k]] = mix(on_lid, vertices[half.eye_rings[EYE_RINGS]], share)
-    for k, extra in {-1: -0.012, -2: 0.10, -3: 0.30}.items():
-        vertices[half.eye_rings[k]] = at(opening + extra, eye.radius * 1.012)
-
-
 def _place_mouth_rings(vertices: Array, half: HalfGrid, field: HeadField, curves: LipCurves) -> None:
     """Put the border of the red on the face and spread the rings outside it evenly."""
     x, y = curves.border_x, curves.border_y
@@ -198,33 +169,6 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
         vertices[moving] += 0.55 * step
         vertices[moving] = field.project(vertices[moving], 3 if round_ == RELAXATIONS - 1 else 1)
         vertices[middle, 0] = 0
-
-
-def _ease_lids(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
-    """Spread the lids evenly between the margin and the skin about them, without a fold where that stands out."""
-    centre = np.array(anatomy.eye.centre)
-    margin, skin = (vertices[half.eye_rings[k]] - centre for k in (0, LID_SLOPE))
-    lowest = anatomy.eye.radius * anatomy.eye.lid_radius
-    out = np.maximum(np.linalg.norm(skin, axis=1), lowest)
-    for k in range(1, LID_SLOPE):
-        share = k / LID_SLOPE
-        length = mix(lowest, out, share**1.6)
-        vertices[half.eye_rings[k]] = centre + unit(mix(unit(margin), unit(skin), share)) * length[:, None]
-
-
-def _fold_upper_lid(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
-    """Press the crease into the upper lid and let the skin above it hang over a little."""
-    centre = np.array(anatomy.eye.centre)
-    for k, height in crease_heights(anatomy.eye).items():
-        ring = half.eye_rings[k][: len(height)]
-        vertices[ring] += unit(vertices[ring] - centre) * height[:, None]
-
-
-def crease_heights(eye: Eye) -> dict[int, Array]:
-    """Return ring -> heights of the crease along the upper lid, which runs out softly at the inner corner."""
-    along = np.linspace(-1, 1, EYE_LOOP // 2 + 1)
-    share = smoothstep(-0.8, 0.15, along) * (1 - np.abs(along) ** 4)
-    return {k: height * eye.crease * share for k, height in CREASE.items()}
 
 
 def _roll_lips(vertices: Array, half: HalfGrid, anatomy: Anatomy, curves: LipCurves) -> None:

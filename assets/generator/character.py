@@ -95,7 +95,7 @@ def build_character(anatomy: Anatomy) -> Character:
     colour, gloss = paint_skin(skin, field)
     colours, mouth, locks = anatomy.colours, anatomy.mouth, hair(field)
     colour = shade_hairline(colour, skin, hairline(locks), colours.hair)
-    teeth_z = skin.vertices[skin.mouth_rings[0]][0, 2] - 0.50
+    teeth_z = skin.vertices[skin.mouth_rings[0]][0, 2] - 0.54
     upper_teeth, upper_gum = dental_arch(teeth_z, mouth.height - 0.22, True, colours)
     lower_teeth, lower_gum = dental_arch(teeth_z - 0.24, mouth.height - 0.02, False, colours)
     left_lashes, roots = lashes(skin, field)

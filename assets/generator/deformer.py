@@ -23,7 +23,7 @@ LID_FOLLOWS = {-3: 0.8, -2: 1, -1: 1, 0: 1, 1: 0.95, 2: 0.87, 3: 0.76, 4: 0.62, 
 """Share of the margin's turn that each lid ring makes."""
 OPENING_FOLLOWS = 0.45
 """Exponent of that share for a lid that opens: it slides under the skin above it, and must not pile up."""
-BLINK_BULGE = {-3: 0, -2: 0, -1: 0.04, 0: 0.066, 1: 0.073, 2: 0.070, 3: 0.056, 4: 0.040, 5: 0.020, 6: 0.006}
+BLINK_BULGE = {-3: 0, -2: 0, -1: 0.04, 0: 0.070, 1: 0.077, 2: 0.073, 3: 0.056, 4: 0.040, 5: 0.020, 6: 0.006}
 """How far a closed lid rises, in eyeball radii: half way, the straight path of a blink would cut the eye."""
 LIFT_FOLLOWS = {-1: 0.9, 0: 1.0, 1: 1.0, 2: 1.0, 3: 1.0, 4: 0.9, 5: 0.5, 6: 0.2}
 """Share of a lift that each lid ring makes."""
@@ -49,6 +49,8 @@ class Lips:
     """0 contact line .. 1 border of the red."""
     height: Array
     """Height of this lip in that of the reference face, 1 there: what thins a lip must not turn it over."""
+    rise: Array
+    """Height of the vertex over the contact line, or depth under it, in the scale of the reference face."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,9 +111,11 @@ class SkinDeformer:
             if k < EYE_RINGS:
                 self.eye_ring[ring] = self.eye_ring[self.mirror[ring]] = k
         self.lip: Mask = (self.mouth_ring >= 0) & (self.mouth_ring < LIP_RINGS)
+        self.around_lip: Mask = (self.mouth_ring >= 0) & (self.mouth_ring <= LIP_RINGS)
+        """The lips and the ring outside them, which goes with their border: else the corners fold over it."""
         self.inside: Mask = self.mouth_ring < 0
         self.depth = np.zeros(n)
-        self.depth[self.lip] = np.array(LIP_PROFILE)[self.mouth_ring[self.lip]]
+        self.depth[self.around_lip] = np.array((*LIP_PROFILE, 1))[self.mouth_ring[self.around_lip]]
 
     def brush(self, centre: Sequence[float], radii: Sequence[float], left_only: bool = False) -> Array:
         """Return an (n,) bell about a point of the reference face, and about its image unless `left_only`."""
@@ -144,23 +148,34 @@ class SkinDeformer:
             moved[self.mirror[ring]] = moved[self.mirror[contact]] * share
         return moved
 
+    def _rise(self) -> Array:
+        """Return (n,) how far each lip vertex lies above or below the contact line."""
+        rise = np.zeros(self.count)
+        for right in (False, True):
+            contact = self.vertices[self.lip_ring(0, right), 1]
+            for k in range(LIP_RINGS + 1):
+                place = self.vertices[self.lip_ring(min(k, LIP_RINGS - 1), right), 1]
+                rise[self.lip_ring(k, right)] = np.abs(place - contact)
+        return rise
+
     def mouth(self, motion: Callable[[Lips], Array], reach: Sequence[float] = (5.4, 4.4, 6.0)) -> Array:
         """Return the (n, 3) displacement of the skin when the lips move by `motion`.
 
         `reach` are the half axes of the region about the mouth that gives way.
         """
-        handles = np.flatnonzero(self.lip)
+        handles = np.flatnonzero(self.around_lip)
         lips = Lips(
             self.across[handles],
             self.side[handles],
             self.depth[handles],
             np.where(self.side[handles] > 0, self.map.upper_lip_scale, self.map.lower_lip_scale),
+            self._rise()[handles] / self.map.mouth_scale,
         )
         values = motion(lips) * self.map.mouth_scale
         q = (self.reference - np.array([0, -5.8, 5.5])) / np.array(reach)
         still = ((q**2).sum(1) > 1) | (self.reference[:, 1] > -1.6) | (self.eye_ring < 8) | self.inside
         nose = self.brush((0, -2.3, 8.2), (0.9, 0.9, 0.9)) > 0.35
-        return self.follow_inside(self.spread(handles, values, (still | nose) & ~self.lip))
+        return self.follow_inside(self.spread(handles, values, (still | nose) & ~self.around_lip))
 
     def lids(
         self,
@@ -258,7 +273,7 @@ class SkinDeformer:
         """Return (n,) how far each skin vertex goes with the jaw."""
         v, across = self.reference, np.abs(self.across)
         y, z = v[:, 1], v[:, 2]
-        lower, upper = 0.40 + 0.60 * (1 - across**3.4) ** 0.75, 0.40 * across**2.6
+        lower, upper = 0.40 + 0.60 * (1 - across**3.2) ** 0.9, 0.40 * across**2.6
         weights = np.zeros(self.count)
         weights[self.lip] = np.where(self.side == 0, 0.40, np.where(self.side < 0, lower, upper))[self.lip]
         chin = (y < -7.6) & (y > -10.4) & (z > 3.6) & (self.off_centre < 2.8)

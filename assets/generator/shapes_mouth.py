@@ -30,7 +30,7 @@ def smile(lip: Lips) -> Array:
     corner = left_side(x) ** 1.5
     between, middle_ = bump(x, 0.5, 0.4), bump(x, 0, 0.5)
     up = 0.70 * left_side(x, 0, 1.06) ** 1.8 - 0.04 * between + 0.02 * middle_
-    thin = -0.13 * lip.side * lip.depth * lip.height * (between + 0.5 * middle_)
+    thin = -0.13 * lip.side * lip.depth * lip.height * (between + 0.5 * middle_) * (1 - x**4)
     back = -0.72 * corner**1.4 - 0.10 * between - 0.04 * middle_
     return columns(0.78 * corner, up + thin, back)
 
@@ -64,7 +64,7 @@ def press(lip: Lips) -> Array:
     """Lips pressed together, the red thin."""
     x = lip.across
     on = smoothstep(-0.35, 0.35, x)
-    up = -lip.side * mix(0, 0.36, lip.depth) * lip.height * on * middle(x)
+    up = -lip.side * 0.52 * lip.rise * on * middle(x)
     back = -0.13 * (1 - 0.6 * lip.depth) * on * (1 - 0.6 * np.abs(x))
     return columns(0.10 * left_side(x, -0.3), up, back)
 
@@ -96,7 +96,7 @@ def pucker(lip: Lips) -> Array:
     """Corners in, lips out: a kiss."""
     x, side, t = lip.across, lip.side, lip.depth
     a = np.abs(x)
-    up = -0.02 + side * t * (0.06 + 0.10 * bump(a, 0.6, 0.4)) + 0.05 * bump(a, 0, 0.25) * (1 - t)
+    up = -0.02 + side * t * (0.06 + 0.10 * bump(a, 0.6, 0.4)) * (1 - a**4) + 0.05 * bump(a, 0, 0.25) * (1 - t)
     return columns(-1.10 * x, up, 0.90 - 0.26 * t * (1 - a**3) - 0.06 * a**2)
 
 
@@ -111,16 +111,16 @@ def funnel(lip: Lips) -> Array:
 
 def roll_lower(lip: Lips) -> Array:
     """Lower lip rolled in over the teeth."""
-    m, low, t = middle(lip.across), lip.side < 0, lip.depth
-    back = low * mix(-0.32, -0.14, t) - 0.06 * (lip.side > 0) * (1 - t)
-    return columns(0, low * m * mix(0, 0.50, t**0.8) * lip.height, m * back)
+    m, low, t = middle(lip.across) ** 2, lip.side < 0, lip.depth
+    back = low * mix(-0.29, -0.14, t) - 0.06 * (lip.side > 0) * (1 - t)
+    return columns(0, 0.68 * low * m * lip.rise, m * back)
 
 
 def roll_upper(lip: Lips) -> Array:
     """Upper lip rolled in over the teeth."""
-    m, high, t = middle(lip.across), lip.side > 0, lip.depth
-    back = high * mix(-0.30, -0.10, t) - 0.06 * (lip.side < 0) * (1 - t)
-    return columns(0, high * m * mix(0, -0.40, t**0.8) * lip.height, m * back)
+    m, high, t = middle(lip.across) ** 2, lip.side > 0, lip.depth
+    back = high * mix(-0.27, -0.10, t) - 0.06 * (lip.side < 0) * (1 - t)
+    return columns(0, -0.68 * high * m * lip.rise, m * back)
 
 
 def shrug_lower(lip: Lips) -> Array:

@@ -199,6 +199,9 @@ def _place_lips(vertices: Array, half: HalfGrid, field: HeadField, curves: LipCu
         x = mix(curves.contact_x, curves.border_x, t)
         y = mix(curves.contact_y, curves.border_y, t)
         vertices[half.mouth_rings[k]] = np.stack([x, y, z], 1)
+    inner, outer = (vertices[half.mouth_rings[LIP_RINGS + k]] for k in (-1, 1))
+    between = 0.45 + 0.25 * smoothstep(0.90, 1, w)  # farther out at the corners, which it would touch
+    vertices[half.mouth_rings[LIP_RINGS]] = mix(inner, outer, between[:, None])
     vertices[half.mouth_rings[0], 1] += np.where(curves.upper, 0.0006, -0.0006) * (curves.along < 1)
 
 

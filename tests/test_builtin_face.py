@@ -49,6 +49,8 @@ EXPRESSIONS = {
     "smirk": {"mouthSmileLeft": 0.85, "mouthDimpleLeft": 0.5, "mouthLeft": 0.25, "browOuterUpLeft": 0.7},
     "doubt": {"browDownLeft": 0.8, "browOuterUpRight": 0.9, "mouthRight": 0.6, "mouthShrugLower": 0.5},
     "sleepy": {"eyeBlink": 0.6, "eyeLookDown": 0.5, "jawOpen": 0.1},
+    "oh": {"jawOpen": 0.7, "mouthFunnel": 0.8, "browOuterUp": 0.4},
+    "oo": {"jawOpen": 0.35, "mouthPucker": 0.9},
     "yawn": {"jawOpen": 1, "eyeBlink": 0.9, "browInnerUp": 0.6, "mouthFunnel": 0.3},
     "whistle": {"mouthPucker": 0.8, "mouthFunnel": 0.4, "eyeLookUp": 0.7, "browOuterUp": 0.5},
     "sealed": {"mouthPress": 0.8, "mouthRollLower": 0.5, "mouthRollUpper": 0.5, "browDown": 0.3},

@@ -43,7 +43,7 @@ class Skull:
     muzzle: Ball = Ball((0, -5.7, 4.95), (2.65, 2.1, 2.4), 1.8)
     brow_ridge: Bone = Bone((1.5, 2.45, 5.95), (4.7, 2.3, 4.4), (0.85, 0.95), 2.0)
     neck: Bone = Bone((0, -14.0, -2.6), (0, -5.0, -1.6), (2.95, 3.25), 2.2)
-    neck_muscle: Bone = Bone((0.65, -13.4, -0.25), (3.3, -5.0, -2.4), (0.30, 0.55), 1.5)
+    neck_muscle: Bone = Bone((0.75, -13.4, -0.15), (3.3, -5.0, -2.2), (0.42, 0.62), 1.3)
     """From the collar bone to behind the ear."""
     shoulders: Ball = Ball((0, -19.6, -3.0), (8.5, 3.0, 4.2), 3.5)
     brow_fill: Ball = Ball((1.70, 0.95, 5.78), (1.0, 1.2, 0.98), 1.6)
@@ -154,7 +154,7 @@ class Colours:
     shirt: Colour = (0.16, 0.30, 0.36)
     teeth: Colour = (0.965, 0.95, 0.915)
     gum: Colour = (0.80, 0.42, 0.42)
-    tongue: Colour = (0.87, 0.47, 0.48)
+    tongue: Colour = (0.82, 0.46, 0.46)
 
 
 @dataclass(frozen=True)

@@ -23,13 +23,13 @@ def brow(field: HeadField) -> Mesh:
     out = unit(out - (out * along).sum(1)[:, None] * along)
     up = np.cross(out, along)
     up *= np.sign(up[:, 1:2])
-    start, end = np.clip((t + 0.006) / 0.18, 0, 1) ** 0.6, np.clip((1.01 - t) / 0.03, 0, 1) ** 0.5
+    start, end = np.clip((t + 0.006) / 0.18, 0, 1) ** 0.5, np.clip((1.01 - t) / 0.03, 0, 1) ** 0.5
     height = form.thickness * start * (1 - 0.82 * smoothstep(0.45, 1.02, t)) * end
     angle = 2 * np.pi * np.arange(AROUND) / AROUND
     rounded = np.sign(np.cos(angle)) * np.abs(np.cos(angle)) ** 0.9
     rows = []
     for i in range(SECTIONS):
-        lift = 0.06 + 0.17 * height[i] / form.thickness * np.sin(angle)
+        lift = 0.05 + 0.14 * height[i] / form.thickness * np.sin(angle)
         rows.append(line[i] + out[i] * lift[:, None] + up[i] * (height[i] * rounded)[:, None])
     count = SECTIONS * AROUND
     triangles = strip_triangles(np.arange(count).reshape(SECTIONS, AROUND), closed=True)

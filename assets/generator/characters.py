@@ -7,7 +7,7 @@ from generator.anatomy import Anatomy, Ball, Bone, Brow, Colours, Eye, Hair, Mou
 ADA = Anatomy(
     skull=Skull(
         face=Ball((0, -1.6, 0.65), (6.05, 6.35, 6.1), 3.0),
-        jaw=Bone((1.45, -6.75, 4.5), (4.0, -5.0, 0.1), (1.4, 1.55), 2.8),
+        jaw=Bone((1.45, -6.75, 4.5), (4.0, -4.7, 0.1), (1.4, 1.5), 3.2),
         chin=Ball((0, -7.30, 5.45), (1.45, 1.30, 1.80), 2.2),
         brow_fill=Ball((1.75, 0.85, 5.95), (1.1, 1.3, 1.05), 2.0),
         inner_canthus=Bone((1.75, -0.25, 6.85), (2.3, 0.2, 7.0), (0.4, 0.55), 1.1),

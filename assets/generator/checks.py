@@ -19,7 +19,7 @@ BARYCENTRIC: Array = np.array(
 
 
 def asymmetry(model: FaceModel) -> tuple[float, float]:
-    """Return the largest mirror error of the neutral and of the shape pairs."""
+    """Return the largest mirror error of the neutral and of the shape pairs, with the products of shapes."""
     mirror, names = model.character.mirror(), model.names
     neutral = model.character.vertices
     of_neutral = np.abs(neutral[mirror] * MIRROR - neutral).max()
@@ -28,7 +28,10 @@ def asymmetry(model: FaceModel) -> tuple[float, float]:
         for k, name in enumerate(names)
         if swapped(name) in names
     )
-    return float(of_neutral), float(of_shapes)
+    pairs = [tuple(names[k] for k in pair) for pair in model.combo_pairs]
+    opposite = [pairs.index(tuple(swapped(name) for name in pair)) for pair in pairs]
+    of_products = np.abs(model.combo_deltas[opposite][:, mirror] * MIRROR - model.combo_deltas).max()
+    return float(of_neutral), float(max(of_shapes, of_products))
 
 
 def edges_of(triangles: Ints) -> Ints:

@@ -56,7 +56,7 @@ def _wave(angle: Array, t: float) -> Array:
 def _shade(angle: Array, t: float) -> Array:
     """Return how light the hair is: dark in grooves and at the hairline, with finer strands between."""
     grooves = mix(1, 0.76 + 0.34 * _wave(angle, t), smoothstep(0.1, 0.5, t))
-    strands = 1 + 0.07 * np.sin(angle * 27 + 2.0 * np.sin(t * 4 + angle))
+    strands = 1 + 0.10 * np.sin(angle * 27 + 2.0 * np.sin(t * 4 + angle))
     return grooves * strands * mix(1, 0.80, smoothstep(0.90, 1, t))
 
 

@@ -1,5 +1,7 @@
 """Shapes of jaw and tongue, and mouthClose, which seals the lips of an open jaw."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from generator.character import Character
@@ -8,7 +10,7 @@ from generator.shape import Shape
 from generator.shapes_mouth import middle
 from generator.skin import LIP_PROFILE
 from generator.topology import MOUTH_LOOP
-from generator.vectors import Array, Vector, columns, mix, rotation, smoothstep
+from generator.vectors import Array, Vector, bump, columns, mix, rotation, smoothstep
 
 OPEN_ANGLE = 17.5
 OPEN_SHIFT: Vector = (0, -0.35, 0.45)
@@ -52,6 +54,24 @@ def tongue_lips(lip: Lips) -> Array:
     """Lips make room for the tongue."""
     m, low, high = middle(lip.across), lip.side < 0, lip.side > 0
     return columns(0, -0.34 * low * m + 0.10 * high * m, 0.10 * low * m)
+
+
+def round_pucker(lip: Lips) -> Array:
+    """Lips that are both puckered and opened by the jaw make an O, not a slot."""
+    x = lip.across
+    wide = 0.34 * x + 0.25 * np.sign(x) * bump(np.abs(x), 0.62, 0.32)
+    return columns(wide, -0.14 * lip.side * bump(x, 0, 0.7), -0.10 * (1 - x**2))
+
+
+def round_funnel(lip: Lips) -> Array:
+    """The same for a funnel, which is open already and opens less."""
+    x = lip.across
+    wide = 0.32 * x + 0.30 * np.sign(x) * bump(np.abs(x), 0.62, 0.32)
+    return columns(wide, -0.30 * lip.side * bump(x, 0, 0.7), -0.14 * (1 - x**2))
+
+
+ROUNDED: dict[str, Callable[[Lips], Array]] = {"mouthPucker": round_pucker, "mouthFunnel": round_funnel}
+"""What the product of these shapes and jawOpen adds."""
 
 
 def jaw_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:

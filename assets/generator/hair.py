@@ -71,7 +71,7 @@ def _volume(form: Hair, normal: Array, t: float, angle: Array, fringe: Array) ->
     edge = np.sqrt(np.clip((1 - t) / 0.22, 0, 1))
     temple = smoothstep(0.9, 1.5, angle) * smoothstep(0.55, 1, t)
     thick = 0.75 + 0.95 * fringe * smoothstep(0.15, 0.8, t) + 0.1 * np.cos(angle)
-    thick = thick * mix(0.25, 1, edge * (2 - edge)) * (1 - 0.55 * temple)
+    thick = thick * mix(0.12, 1, edge * (2 - edge)) * (1 - 0.55 * temple)
     wave = _wave(angle, t)
     groove = 0.26 * form.grooves * (1 - wave) ** 2 * smoothstep(0.10, 0.45, t)
     swept = fringe * smoothstep(0.4, 0.95, t) * (1 - 0.6 * smoothstep(0.93, 1, t))

@@ -138,6 +138,8 @@ class Hair:
     """Thickness, 1 for straight short hair."""
     grooves: float = 1.0
     """Depth of the grooves between strands."""
+    bun: Ball | None = None
+    """A coiled knot on the head."""
 
 
 @dataclass(frozen=True)

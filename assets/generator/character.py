@@ -12,7 +12,7 @@ from generator.ears import ear
 from generator.eyes import eyeball
 from generator.field import HeadField
 from generator.hair import hair, hairline
-from generator.meshes import Mesh
+from generator.meshes import Mesh, joined
 from generator.mouth_parts import dental_arch, tongue
 from generator.shirt import shirt
 from generator.skin import Skin, build_skin
@@ -100,16 +100,11 @@ def build_character(anatomy: Anatomy) -> Character:
     lower_teeth, lower_gum = dental_arch(teeth_z - 0.24, mouth.height - 0.02, False, colours)
     left_lashes, roots = lashes(skin, field)
     left = {"eye": eyeball(anatomy.eye, colours), "brow": brow(field), "lash": left_lashes, "ear": ear(field)}
-    gums = Mesh(
-        np.r_[upper_gum.vertices, lower_gum.vertices],
-        np.r_[upper_gum.triangles, lower_gum.triangles + len(upper_gum.vertices)],
-        np.r_[upper_gum.colours, lower_gum.colours],
-    )
     parts = {
         "skin": Mesh(skin.vertices, skin.triangles, colour),
         "teethUpper": upper_teeth,
         "teethLower": Mesh(lower_teeth.vertices, lower_teeth.triangles, lower_teeth.colours * 0.97),
-        "gums": gums,
+        "gums": joined(upper_gum, lower_gum),
         "tongue": tongue(teeth_z, mouth.height - 0.85, colours),
         "hair": locks,
         "shirt": shirt(anatomy.skull, colours),

@@ -47,7 +47,7 @@ ADA = Anatomy(
         y=((0, 2.62), (0.3, 3.02), (0.65, 3.16), (1, 2.50)),
         thickness=0.26,
     ),
-    hair=Hair(locks=0.05),
+    hair=Hair(locks=0.05, bun=Ball((0, 10.2, -8.3), (2.6, 2.1, 2.6), 0)),
     colours=Colours(),
 )
 BRUNO = Anatomy(

@@ -2,14 +2,21 @@
 
 import numpy as np
 
-from generator.anatomy import Hair
+from generator.anatomy import Ball, Colour, Hair
 from generator.field import HeadField
-from generator.meshes import Mesh, outwards, strips
+from generator.meshes import Mesh, joined, outwards, strips
 from generator.vectors import MIRROR, Array, columns, curve, mix, repeated, smoothstep, unit
 
 AROUND, ROWS = 100, 23
 AZIMUTH = ((0, 0), (0.30, 1.05), (0.72, 2.0), (1, np.pi))
 """Angle of the columns, 0 front .. pi back, over their share of the way: closest together at the temples."""
+BUN_AROUND = 20
+BUN_ROWS = (
+    (0.62, -1.05, 0.6), (0.58, -0.80, 0.6), (0.86, -0.62, 0.8), (1.0, -0.30, 1.0), (0.99, -0.02, 0.95),
+    (0.91, 0.14, 0.72), (0.92, 0.38, 1.0), (0.80, 0.62, 0.98), (0.66, 0.68, 0.72), (0.58, 0.84, 1.0),
+    (0.34, 0.98, 0.98), (0, 0.96, 0.85),
+)  # fmt: skip
+"""(width, height, light) of the coils from the root outwards, in radii."""
 
 
 def hair(field: HeadField) -> Mesh:
@@ -45,6 +52,25 @@ def hair(field: HeadField) -> Mesh:
     vertices, triangles = strips(starts, closed=True)
     shade = np.concatenate([_shade(angle, min(i / (ROWS - 2), 1.0)) for i in range(ROWS)])
     colour = np.array(field.anatomy.colours.hair) * shade[:, None]
+    shell = Mesh(vertices, outwards(vertices, triangles), colour).welded()
+    if form.bun is None:
+        return shell
+    return joined(_bun(form.bun, centre, field.anatomy.colours.hair), shell)  # `hairline` is at the end
+
+
+def _bun(form: Ball, head: Array, hair_colour: Colour) -> Mesh:
+    """Return a knot of coils on the axis from the middle of the head, tied where it grows out."""
+    axis = unit(np.array(form.centre, float) - head)
+    forward = np.array([0, -axis[2], axis[1]])
+    angle = 2 * np.pi * np.arange(BUN_AROUND) / BUN_AROUND
+    across, up, along = np.array([(1, 0, 0), axis, forward]) * np.array(form.radii)[:, None]
+    around = np.outer(np.sin(angle), across) + np.outer(np.cos(angle), along)
+    rows = [np.array(form.centre) + size * around + height * up for size, height, _ in BUN_ROWS]
+    vertices, triangles = strips(rows, closed=True)
+    k = np.arange(BUN_AROUND)
+    mirror = np.concatenate([i * BUN_AROUND + (-k) % BUN_AROUND for i in range(len(BUN_ROWS))])
+    vertices = (vertices + vertices[mirror] * MIRROR) / 2
+    colour = np.outer(np.repeat([light for *_, light in BUN_ROWS], BUN_AROUND), hair_colour)
     return Mesh(vertices, outwards(vertices, triangles), colour).welded()
 
 

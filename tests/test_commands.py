@@ -229,7 +229,11 @@ def test_errors_are_one_line_and_exit_status_2(
 
 
 @pytest.mark.parametrize(
-    "command", ["", "info", "solve", "render", "export", "bench", "compare", "study", "figures"]
+    "command",
+    [
+        *("", "info", "solve", "render", "export", "bench", "compare", "study", "figures"),
+        *("sheet", "turntable", "movie"),
+    ],
 )
 def test_every_command_has_help(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stopped:

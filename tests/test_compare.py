@@ -9,14 +9,16 @@ import pytest
 from PIL import Image
 
 from facepin.__main__ import main
+from facepin.core.face_view import face_camera
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.figures.compare import comparison_panes
 from facepin.figures.comparison import FAR, compare
-from facepin.figures.pictures import Painter, Pane, face_camera, sheet
+from facepin.figures.pictures import Painter
 from facepin.files.pins_file import write_pins
 from facepin.files.pose_file import read_pose, write_pose
 from facepin.session.solving import choose
+from facepin.sheets import Pane, sheet
 from facepin.solvers import SOLVERS
 from small_rigs import sheet as sheet_rig
 

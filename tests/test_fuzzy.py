@@ -25,7 +25,6 @@ def ranked(word: str, phrases: tuple[str, ...] = TITLES) -> list[str]:
     [
         ("frame", "Frame the face"),  # a word of its own before a part of one
         ("wf", "Wireframe"),
-        ("sp", "Save pose…"),  # two beginnings of words; the shorter phrase of two
         ("spi", "Save picture"),
         ("rp", "Reset the pose"),
         ("POSE", "Save pose…"),

@@ -55,3 +55,13 @@ def test_it_fits_opens_with_a_question_mark_and_closes(size: tuple[int, int], sc
         app.release(8, size[1] - 60)
         app.step(PointerMoved(9, 300), frames=2)
         assert not app.desk.view.keyboard
+
+
+def test_a_question_mark_is_one_wherever_the_keyboard_has_it() -> None:
+    with running() as app:
+        app.window._on_char(None, ord("?"))
+        app.step(frames=3)
+        assert app.desk.view.keyboard
+        app.window._on_char(None, ord("ß"))
+        app.step(frames=3)
+        assert app.desk.view.keyboard

@@ -152,10 +152,10 @@ def test_a_pin_and_its_twin_make_a_symmetric_face(ada: Rig, mirror: Mirror, solv
     corner = int(np.argmax(np.linalg.norm(smile, axis=1)))
     place = ada.neutral[corner].astype(float)
     placed = (Pin(corner, tuple(place.tolist())),)
-    pins = with_twins(mirror, (), placed, ada.neutral, corner)
+    pins = with_twins(mirror, (), placed, ada.neutral)
     assert {pin.vertex for pin in pins} == {corner, int(mirror.vertices[corner])}
     dragged = (Pin(corner, tuple(np.add(place, (0.3, 0.5, 0.1)).tolist())), *pins[1:])
-    pins = with_twins(mirror, pins, dragged, ada.neutral, corner)
+    pins = with_twins(mirror, pins, dragged, ada.neutral)
     np.testing.assert_allclose(pins[1].goal, mirror.across(np.array(pins[0].goal)), atol=1e-4)
     weights = PinSolver(ada, choose(solver)).solve(pins, np.zeros(ada.shape_count)).weights
     assert np.abs(weights).max() > 0.05
@@ -165,11 +165,11 @@ def test_a_pin_and_its_twin_make_a_symmetric_face(ada: Rig, mirror: Mirror, solv
 def test_pins_on_the_middle_stay_there_and_the_held_side_leads(ada: Rig, mirror: Mirror) -> None:
     middle = int(np.flatnonzero(mirror.vertices == np.arange(ada.vertex_count))[0])
     start = (Pin(middle, (0.0, 1.0, 2.0)),)
-    (pin,) = with_twins(mirror, start, (Pin(middle, (0.7, 1.5, 2.5)),), ada.neutral, middle)
+    (pin,) = with_twins(mirror, start, (Pin(middle, (0.7, 1.5, 2.5)),), ada.neutral)
     assert pin.goal == (0.0, 1.5, 2.5)
     left = int(np.argmax(ada.neutral[:, 0]))
     right = int(mirror.vertices[left])
     both = (Pin(left, (1.0, 0.0, 0.0)), Pin(right, (-1.0, 0.0, 0.0)))
     moved = (Pin(left, (1.5, 0.2, 0.0)), Pin(right, (-0.5, 0.2, 0.0)))
-    result = {pin.vertex: pin.goal for pin in with_twins(mirror, both, moved, ada.neutral, left)}
+    result = {pin.vertex: pin.goal for pin in with_twins(mirror, both, moved, ada.neutral)}
     assert result == {left: (1.5, 0.2, 0.0), right: (-1.5, 0.2, 0.0)}

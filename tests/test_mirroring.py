@@ -63,3 +63,44 @@ def test_locked_weights_are_not_mirrored(app: App) -> None:
     assert weight(app, "mouthSmileRight") == 0.0
     assert "mouthSmileRight" in app.desk.message
     app.session.set_control("Unlock", control)
+
+
+def test_a_pin_makes_its_twin_and_both_are_dragged_and_removed_as_one(app: App) -> None:
+    app.key("home")
+    app.ask(Command.CLEAR_PINS)
+    rig, mirror = app.session.rig, app.session.mirror
+    before = app.session.pose
+    app.key("m")
+    assert "both sides" in app.desk.message
+    smile = rig.rows_at(range(rig.vertex_count))[:, rig.shape_names.index("mouthSmileLeft")]
+    corner = int(np.argmax(np.linalg.norm(smile.reshape(-1, 3), axis=1)))
+    x, y = app.pixel_of(corner)
+    app.drag((x, y), (x + 15, y - 15))
+    first, second = app.session.pose.pins
+    assert second.vertex == mirror.vertices[first.vertex]
+    np.testing.assert_allclose(second.goal, mirror.across(np.array(first.goal)), atol=1e-3)
+    weights = app.session.pose.weights
+    assert weights[rig.shape_names.index("mouthSmileLeft")] > 0.1
+    np.testing.assert_allclose(mirror.flipped(weights), weights, atol=1e-3)
+
+    # Dragging either one drags the other; keys do so too.
+    x, y = app.pixel_of(second.vertex)
+    app.drag((x, y), (x, y + 10))
+    lower = app.session.pose.pins
+    assert lower[0].goal[1] == pytest.approx(lower[1].goal[1], abs=1e-3)
+    assert lower[0].goal[1] < first.goal[1]
+    app.key("up", shift=True)
+    app.until(lambda: not app.desk.tool.nudging)
+    higher = app.session.pose.pins
+    assert higher[0].goal[1] == pytest.approx(higher[1].goal[1], abs=1e-3)
+    assert higher[0].goal[1] > lower[0].goal[1]
+
+    app.key("delete")
+    assert not app.session.pose.pins
+    for _ in range(4):
+        app.key("z", control=True)
+    assert app.session.pose is before
+    app.key("m")
+    x, y = app.pixel_of(corner)
+    app.drag((x, y), (x + 15, y - 15))
+    assert len(app.session.pose.pins) == 1

@@ -66,11 +66,24 @@ def test_arrows_choose_and_escape_leaves() -> None:
 def test_letters_typed_into_it_are_no_shortcuts_and_a_click_beside_it_closes_it() -> None:
     with running() as app:
         called(app)
-        app.step(KeyPressed("h"), frames=2)
-        assert app.desk.view.panes[0].shading == "studio"
+        app.step(KeyPressed("w"), frames=2)
+        assert not app.desk.view.panes[0].wireframe
         app.press(100, 600)
         app.release(100, 600)
         assert app.desk.view.palette is None
+
+
+def test_it_is_called_out_of_a_text_field_too() -> None:
+    with running() as app:
+        app.press(1010, 375)  # the search for shapes
+        app.release(1010, 375)
+        app.step(PointerMoved(1010, 376), frames=3)
+        assert imgui.get_io().want_text_input
+        app.step(KeyPressed("w"), frames=2)
+        assert not app.desk.view.panes[0].wireframe
+        called(app, "wire")
+        key(app, imgui.Key.enter)
+        assert app.desk.view.panes[0].wireframe
 
 
 def test_what_can_not_be_done_says_why_and_is_not_done() -> None:
@@ -86,11 +99,13 @@ def test_what_can_not_be_done_says_why_and_is_not_done() -> None:
 
 def test_a_click_chooses() -> None:
     with running() as app:
-        called(app, "heat")
+        called(app, "chart")
         app.press(640, 109)
         app.release(640, 109)
         app.step(frames=2)
-        assert app.desk.view.panes[0].shading == "heat"
+        assert app.desk.view.chart
+        (entry,) = (e for e in entries(app.desk.view, app.session, []) if e.request is Command.CHART)
+        assert entry.on
 
 
 def test_everything_is_in_it_and_can_be_carried_out(tmp_path: Path) -> None:
@@ -118,6 +133,7 @@ def test_everything_is_in_it_and_can_be_carried_out(tmp_path: Path) -> None:
         ("png", "Save picture"),
         ("unwanted motion", "Heat map of the move"),
         ("maya", "Mouse and keys: Maya"),
+        ("mouse keys", "Mouse and keys: Facepin"),  # of those that fit alike, the first of the table
     ],
 )
 def test_what_is_meant_comes_first(query: str, first: str) -> None:

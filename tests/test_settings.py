@@ -53,6 +53,24 @@ def test_a_habit_changes_mouse_and_keys_at_once() -> None:
         assert app.desk.camera.yaw != turned.yaw
 
 
+@pytest.mark.parametrize("habit", ["maya", "blender"])
+def test_where_the_left_button_is_not_the_camera_s_it_selects_in_a_box(habit: str) -> None:
+    with running() as app:
+        app.ask(Choose("habit", habit))
+        x, y, z = app.session.rig.neutral.T
+        chin = app.pixel_of(int(np.argmin(np.abs(x) + np.abs(y - np.median(y[z > 0.9 * z.max()])) - z)))
+        app.press(*chin)
+        app.release(*chin)
+        (pin,) = app.session.pose.pins
+        camera = app.desk.camera
+        app.press(60, 600)
+        app.release(60, 600)
+        assert not app.desk.tool.selected  # a click beside the face lets go of all
+        app.drag((60, 600), (900, 100))
+        assert app.desk.tool.selected == {pin.vertex}
+        assert app.desk.camera is camera
+
+
 def test_preferences_know_the_same_themes_and_habits() -> None:
     assert set(get_args(preferences.Theme)) == set(get_args(theme.ThemeName)) == set(THEMES)
     assert set(get_args(preferences.Habit)) == set(get_args(navigation.Habit)) == set(navigation.PRESETS)
@@ -86,3 +104,18 @@ def test_the_icon_is_there_in_every_size(size: int) -> None:
     assert pixels[0, 0, 3] < 10  # round corners
     red, _, blue, _ = pixels.reshape(-1, 4).T
     assert 0.01 < np.mean(red - blue > 120) < 0.2  # the orange pin
+
+
+def test_the_number_pad_steps_round_the_face() -> None:
+    with running() as app:
+        front = app.desk.camera
+        app.key("numpad 6")
+        app.key("numpad 8")
+        assert app.desk.camera.yaw > front.yaw  # from the right of the picture: the character's left side
+        assert app.desk.camera.pitch > front.pitch
+        app.key("numpad 4")
+        app.key("numpad 2")
+        assert app.desk.camera.yaw == pytest.approx(front.yaw)
+        assert app.desk.camera.pitch == pytest.approx(front.pitch)
+        app.key("1", control=True)
+        assert abs(app.desk.camera.yaw) == pytest.approx(np.pi)

@@ -1,8 +1,10 @@
 """Text can be read on all that it stands on, in both themes."""
 
 import pytest
+from PIL import ImageFont
 
 from facepin.panels.theme import THEMES, Colour, Theme, pane_colours
+from facepin.resources import resource
 from facepin.solvers import SOLVERS
 
 ENOUGH = 4.5
@@ -77,3 +79,8 @@ def test_the_colours_of_panes_can_be_read_and_told_apart(name: str) -> None:
 
 def test_the_light_theme_is_light() -> None:
     assert luminance(THEMES["light"].panel) > 0.7 > 0.1 > luminance(THEMES["dark"].panel)
+
+
+def test_numbers_stand_in_columns() -> None:
+    font = ImageFont.truetype(str(resource("assets", "fonts/Roboto-Regular.ttf")), 300)
+    assert len({font.getlength(digit) for digit in "0123456789"}) == 1

@@ -254,10 +254,49 @@ def _figures(options: Namespace) -> None:
     print(paper.run(options))
 
 
+def _sheet_options(parser: ArgumentParser) -> None:
+    from facepin.figures import contact
+
+    contact.add_options(parser)
+
+
+def _sheet(options: Namespace) -> None:
+    from facepin.figures import contact
+
+    print(*contact.run(options), sep="\n")
+
+
+def _turntable_options(parser: ArgumentParser) -> None:
+    from facepin.figures import turntable
+
+    turntable.add_options(parser)
+
+
+def _turntable(options: Namespace) -> None:
+    from facepin.figures import turntable
+
+    print(turntable.run(options))
+
+
+def _movie_options(parser: ArgumentParser) -> None:
+    from facepin.figures import movie
+
+    movie.add_options(parser)
+
+
+def _movie(options: Namespace) -> None:
+    from facepin.figures import movie
+
+    print(movie.run(options))
+
+
 COMMANDS: dict[str, Command] = {
     "info": Command("say what is in a rig", _info_options, _info),
     "solve": Command("turn pins into weights and print them as JSON", _solve_options, _solve),
     "render": Command("draw one picture of a pose", _render_options, _render),
+    "sheet": Command("draw all poses of a folder on one sheet", _sheet_options, _sheet),
+    "turntable": Command("draw a pose from all round, animated", _turntable_options, _turntable),
+    "movie": Command("draw pins being dragged and the face following, animated", _movie_options, _movie),
     "compare": Command("put solvers side by side: pictures, charts, poses", _compare_options, _compare),
     "study": Command("let a simulated animator pose a face with every solver", _study_options, _study),
     "bench": Command("measure what a press and a drag frame cost", _bench_options, _bench),

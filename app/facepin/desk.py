@@ -11,14 +11,17 @@ from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.files import open_rig
+from facepin.library import Library, library_of
 from facepin.options import BUILTIN
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
 from facepin.papers import keep_pose
+from facepin.portraits import Portraits
 from facepin.resources import resource
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
+from facepin.session.job import Job
 from facepin.session.loading import Loading
 from facepin.session.session import Session, Work
 from facepin.session.solving import SolverChoice
@@ -39,6 +42,7 @@ class Desk:
         native_dialogs: bool,
         pictures: Path,
         unsaved: Path | None,
+        settings: Path | None = None,
         chart_writer: ChartWriter | None,
     ) -> None:
         """Start with nothing open.
@@ -57,6 +61,8 @@ class Desk:
             Folder that saved pictures go to.
         unsaved : Path
             Folder where poses are kept that nobody saved; None keeps nothing.
+        settings : Path
+            Folder for poses of rigs that they can't be kept beside; None for nowhere.
         chart_writer : callable
             Writes the charts of a session into a folder.
         """
@@ -65,6 +71,10 @@ class Desk:
         self.cameras: list[Camera] = [Camera()]
         """One per pane."""
         self.stage: Stage | None = None
+        self.library: Library | None = None
+        self.portraits: Portraits | None = None
+        self.job: Job | None = None
+        """What is being made beside the work."""
         self.loading: Loading | None = None
         self.dialog: FileDialog | None = None
         self.message = ""
@@ -74,12 +84,15 @@ class Desk:
         self.closing = False
         self.viewport = Viewport(0, 0, 1, 1)
         """Of the first pane, as last drawn."""
+        self.pixel_scale = 1.0
+        """Pixels per pixel of a 1x screen, as last drawn."""
         self.pictures = pictures
         self.chart_writer = chart_writer
         self._ctx = ctx
         self._choices = choices
         self._native = native_dialogs
         self._unsaved = unsaved
+        self._settings = settings
         self._then: Callable[[Path], None] = self.open
         """What the open dialog is for."""
         self._saved: Work | None = None
@@ -113,11 +126,16 @@ class Desk:
             self.cameras[self.session.active if pane is None else pane] = camera
 
     @property
+    def is_saved(self) -> bool:
+        """Whether nothing would be lost by closing."""
+        return self.session is None or self.session.committed is self._saved
+
+    @property
     def title(self) -> str:
         """What the title bar says: the rig, a star while its pose is unsaved, the program."""
         if self.session is None:
             return "Facepin"
-        star = "*" if self.session.committed is not self._saved else ""
+        star = "" if self.is_saved else "*"
         return f"{self.session.rig.name}{star} - Facepin"
 
     def say(self, message: str, *, error: bool = False) -> None:
@@ -168,6 +186,39 @@ class Desk:
                 with self.reporting():
                     self._then(dialog.path)
 
+        if (job := self.job) is not None:
+            self.job = None  # unless it goes on
+            with self.reporting():
+                came_of_it = job.advance()
+                if came_of_it is None:
+                    self.job = job
+                else:
+                    self.say(came_of_it)
+
+    def start(self, job: Job) -> None:
+        """Begin something long; `poll` takes its steps.
+
+        Raises
+        ------
+        FacepinError
+            While another one goes on.
+        """
+        if self.job is not None:
+            raise FacepinError(f"'{self.job.title}' is still being made")
+        self.job = job
+
+    @property
+    def refined(self) -> bool:
+        """Whether `refine` has nothing to do."""
+        return all(each is None or each.refined for each in (self.stage, self.library, self.portraits))
+
+    def refine(self) -> bool:
+        """Do some milliseconds of what can wait for an idle moment; return whether anything looks new."""
+        for each in (self.stage, self.library, self.portraits):
+            if each is not None and not each.refined:
+                return each.refine()
+        return False
+
     def apply(self, edit: Edit) -> None:
         """Apply an edit to the session, and pass on what it has to say."""
         if self.session is None:
@@ -197,6 +248,15 @@ class Desk:
             self.loading.cancel()
         if self.dialog is not None:
             self.dialog.close()
+        self._put_away()
+
+    def _put_away(self) -> None:
+        """Give back what the open rig needs."""
+        if self.job is not None:
+            self.job.cancel()
+            self.job = None
+        if self.portraits is not None:
+            self.portraits.release()
         if self.stage is not None:
             self.stage.release()
 
@@ -214,9 +274,11 @@ class Desk:
         stage = Stage(self._ctx, session)
         kept = self.keep_unsaved()
         is_first = self.stage is None
-        if self.stage is not None:
-            self.stage.release()
+        self._put_away()
         self.stage, self.tool = stage, DragTool()
+        own = rig.source != resource("assets", BUILTIN)
+        self.library = library_of(session, self._settings, own=own)
+        self.portraits = Portraits(self._ctx, stage)
         self._saved = session.committed
         count = len(session.panes)
         width, height, _ = np.ptp(rig.neutral, axis=0).tolist()
@@ -269,12 +331,16 @@ class Desk:
         self._then = then
 
     def sync(self) -> None:
-        """Follow the session: no pin is selected that is gone, and every pane has its camera and view.
+        """Let what depends on the work follow it: selected pins, the library's files, the panes' looks.
 
-        It keeps these when others are closed, and finds them after undo.
+        No pin is selected that is gone.  A pane keeps its camera and view when others are closed, and finds
+        them after undo.
         """
         if self.session is not None:
             self.tool.forget_gone(self.session.pose.pins)
+        if self.library is not None:
+            with self.reporting():
+                self.library.follow()
         numbers = [pane.number for pane in self.session.panes] if self.session else [0]
         if numbers == self._numbers:
             return

@@ -12,20 +12,24 @@ from facepin.desk import Desk
 from facepin.panels import layout
 from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
+from facepin.panels.filmstrip import filmstrip_window
 from facepin.panels.guide import Hand, draw_guide
-from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint
+from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint, symmetry_sign
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
+from facepin.panels.library import Shown, library_panel
 from facepin.panels.menu import menu_bar
 from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import pins_panel, together
-from facepin.panels.requests import Command, Request
+from facepin.panels.requests import CancelJob, CancelLoading, Command, Request
 from facepin.panels.solver import solver_panel
-from facepin.panels.status import loading_card, status_line
+from facepin.panels.status import progress_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.panels.weights import weights_panel
+from facepin.session.edit import Edit
+from facepin.session.filmstrip import filmstrip
 from facepin.session.session import Session
 from facepin.stage import Stage
 
@@ -45,7 +49,12 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
-    asked: list[Request | None] = [menu_bar(desk.view, recent, session)]
+    spacing = imgui.get_style().item_spacing
+    imgui.push_style_var(
+        imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, 2 * spacing.y)
+    )  # easier to hit
+    asked: list[Request | None] = [menu_bar(view, recent, session)]
+    imgui.pop_style_var()
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
@@ -54,7 +63,11 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
     warnings = rig.warnings if rig else ()
     status_line(rig, timing, desk.message, view.theme, is_error=desk.is_error, warnings=warnings)
     if desk.loading is not None and desk.loading.is_long:
-        asked.append(loading_card(desk.loading.path.name, desk.loading.fraction, desk.loading.line))
+        title = f"Opening {desk.loading.path.name}"
+        if progress_card(title, desk.loading.fraction, desk.loading.line):
+            asked.append(CancelLoading())
+    elif desk.job is not None and desk.job.is_long and progress_card(desk.job.title, desk.job.fraction, ""):
+        asked.append(CancelJob())
     if desk.dialog is not None:
         desk.dialog.draw()
     if session is not None:
@@ -112,14 +125,56 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             in_gesture=session.in_gesture,
         )
     imgui.end()
+    is_first = not layout.is_known(layout.LIBRARY)
+    blend, more = _library(desk, scale)
+    if is_first:  # else the tab that is made last lies on top
+        imgui.set_window_focus(layout.WEIGHTS)
+    edit = edit or blend
     if edit is not None:
         desk.apply(edit)
     chart: Request | None = None
+    film: Request | None = None
     if desk.view.chart and session is not None:
         desk.view.chart, chart = chart_window(
             session.rig, session.panes, session.work.reference, scale, theme
         )
-    return [asked for asked in (request, of_pins, chart) if asked is not None]
+    if desk.view.filmstrip and session is not None and desk.portraits is not None:
+        stills = filmstrip(session)
+        desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
+    return [asked for asked in (request, of_pins, chart, film, *more) if asked is not None]
+
+
+def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
+    """Draw the library panel, where its tab is open."""
+    layout.beside(layout.LIBRARY, layout.WEIGHTS)
+    layout.without_background(layout.LIBRARY)
+    if desk.view.library_opens:
+        imgui.set_next_window_focus()
+        desk.view.library_opens = False
+    edit: Edit | None = None
+    asked: list[Request] = []
+    session, library, portraits = desk.session, desk.library, desk.portraits
+    is_open = imgui.begin(layout.LIBRARY, None, imgui.WindowFlags_.no_focus_on_appearing)[0]
+    if is_open and session is not None and library is not None and portraits is not None:
+        if imgui.is_window_appearing() and library.looked_at:
+            library.read_again()
+        library.looked_at = True
+        panes = session.committed.panes
+        shown = Shown(
+            session.rig,
+            library.poses,
+            lambda pose: portraits.tile(pose.weights, library.picture_file(pose)),
+            panes[min(session.active, len(panes) - 1)].pose.weights,
+            library.folder,
+            library.remark,
+            desk.view.theme,
+            library.complaints,
+            library.is_reading,
+        )
+        edit, wishes = library_panel(shown, desk.view.library, scale)
+        asked += wishes
+    imgui.end()
+    return edit, asked
 
 
 def over_picture(
@@ -210,6 +265,8 @@ def _hand(
             pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
+    if desk.view.symmetric:
+        symmetry_sign(viewport, pixel_ratio, scale)
     hidden = sum(pin.hidden for pin in pins)
     return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
 

@@ -102,6 +102,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         native_dialogs=start.native_dialogs and has_native_dialogs(),
         pictures=start.pictures,
         unsaved=start.settings_folder / "unsaved" if start.settings_folder else None,
+        settings=start.settings_folder,
         chart_writer=start.chart_writer,
     )
     try:
@@ -147,7 +148,7 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        waiting = desk.loading is not None or desk.dialog is not None
+        waiting = desk.loading is not None or desk.dialog is not None or desk.job is not None
         busy = waiting or desk.tool.nudging or view.guide.moving(began)
         settling = SETTLE if events or busy else settling - 1
         if 0 in window.size:
@@ -165,14 +166,12 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
             look_again = began + IDLE_WAIT if imgui.get_io().want_text_input else None
         if settling < 0:
             # Nothing to do: time for what makes the picture better, then sleep.
-            better = desk.stage is not None and not desk.stage.refined and desk.stage.refine()
-            settling = SETTLE if better else -1
-            refined = desk.stage is None or desk.stage.refined
+            settling = SETTLE if desk.refine() else -1
             rest = IDLE_WAIT if look_again is None else max(look_again - began, 0.0)
-            wait = rest if refined else 0.0
+            wait = rest if desk.refined else 0.0
             yield Frame(desk, viewport, viewports, False, 0.0)
             continue
-        wait = BUSY_WAIT if busy else 0.0
+        wait = (0.0 if desk.job is not None else BUSY_WAIT) if busy else 0.0
         if window.scale * view.ui_scale / window.pixel_ratio != scale:
             reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
             scale = window.scale * view.ui_scale / window.pixel_ratio
@@ -194,7 +193,7 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
         if desk.stage is not None:
             moved = desk.stage.update()
             viewports = layout.split(viewport, len(desk.stage.session.panes), PANE_GAP * window.scale)
-            desk.viewport = viewports[0]
+            desk.viewport, desk.pixel_scale = viewports[0], window.scale
             asked += interface.over_picture(desk, viewport, viewports, window.pixel_ratio, scale)
 
             # The picture, where it is another than the last one.

@@ -18,6 +18,8 @@ BUILTIN = "faces/ada.npz"
 VIEWS: tuple[View, ...] = ("front", "left", "right", "three-quarter")
 """From where pictures may be taken."""
 LARGEST_PICTURE = 32768
+MOST = 1000
+"""Pictures of one series."""
 
 
 def open_with_bar(path: Path | None, neutral: str | None = None) -> Rig:
@@ -85,6 +87,20 @@ def picture_size(text: str) -> tuple[int, int]:
     if not all(side.isdecimal() and 1 <= int(side) <= LARGEST_PICTURE for side in (width, height)):
         raise ArgumentTypeError(f"found '{text}', allowed: WIDTHxHEIGHT, each 1 to {LARGEST_PICTURE}")
     return int(width), int(height)
+
+
+def png_path(text: str) -> Path:
+    """Read the path of a picture."""
+    if Path(text).suffix.lower() != ".png":
+        raise ArgumentTypeError(f"found '{text}', allowed: a path that ends in .png")
+    return Path(text)
+
+
+def count(text: str) -> int:
+    """Read how many of something there should be."""
+    if not text.isdecimal() or not 1 <= int(text) <= MOST:
+        raise ArgumentTypeError(f"found '{text}', allowed: a whole number 1 to {MOST}")
+    return int(text)
 
 
 def add_solver(parser: ArgumentParser, default: str, flag: str = "--solver") -> None:

@@ -81,8 +81,10 @@ class Router:
                 asked.append(Command.QUIT)
             case FilesDropped((first, *_)):
                 asked.append(OpenPath(first.parent if first.suffix.lower() == ".obj" else first))
-            case KeyPressed() if not imgui.get_io().want_text_input and desk.view.palette is None:
+            case KeyPressed() if desk.view.palette is None:
                 command = command_for(event, desk.view.habit)
+                if imgui.get_io().want_text_input and command is not Command.PALETTE:
+                    return None  # it is being written; only what writes nothing is heard everywhere
                 in_hand = desk.tool.holding or self.navigator.holding
                 # What a gesture began with must not change under it; a picture of it may be taken.
                 if command is not None and (not in_hand or command in PICTURES):
@@ -182,6 +184,7 @@ class Router:
             desk.view.freedom,
             desk.view.pins.stroke if desk.view.pins.sketching else None,
             ("left", NONE) not in PRESETS[desk.view.habit].motions,
+            stage.session.mirror if desk.view.symmetric else None,
         )
 
 

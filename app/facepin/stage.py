@@ -18,7 +18,7 @@ from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame
 from facepin.gpu.markers import MarkerLayer, Markers, pin_markers
 from facepin.gpu.materials import material
-from facepin.gpu.pane import Overlays, draw_pane
+from facepin.gpu.pane import BARE, Overlays, draw_pane
 from facepin.gpu.picture import Image, draw_picture
 from facepin.gpu.scene import PaneMesh, Part, Scene
 from facepin.gpu.still import StillLayer
@@ -74,6 +74,8 @@ class Stage:
         """(t, 3) what is drawn, hence what can be pressed."""
         self._appraiser = Appraiser(session.rig)
         self._shells: dict[Ghost, _Shell] = {}
+        self._sitter: PaneMesh | None = None
+        """For portraits."""
         rig = session.rig
         self._shown = [_Shown(Deformer(rig), NormalField(rig), PaneMesh(self._scene), HeatGauge(rig))]
         self.update()
@@ -179,10 +181,67 @@ class Stage:
             heat = shown.gauge.reach(work.panes[pane])
         elif view.shading == "heat":
             heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
-        ghost = None
-        if view.ghost == "neutral" or (view.ghost == "reference" and work.reference is not None):
-            ghost = self._ghost(view.ghost, None if view.ghost == "neutral" else work.reference)
-        return Overlays(heat, view.wireframe, ghost, view.shading)
+        return Overlays(heat, view.wireframe, self._ghost_of(view), view.shading)
+
+    def portrait(
+        self,
+        pose: Pose,
+        camera: Camera,
+        size: tuple[int, int],
+        over: PaneView | None = None,
+        *,
+        pins: bool = False,
+        scale: float = 1.0,
+        transparent: bool = False,
+    ) -> Image:
+        """Return a picture of a pose that no pane need show, (h, w, 4) uint8, first row on top.
+
+        Parameters
+        ----------
+        pose : Pose
+            On the rig of the session.
+        camera : Camera
+            Sees it.
+        size : (int, int)
+            Width and height in pixels.
+        over : PaneView
+            Shading, wireframe and ghost as in a pane; of a heat map there is none, since no drag led here.
+        pins : bool
+            Draw the pins too.
+        scale : float
+            Pixels per pixel of a 1x screen.
+        transparent : bool
+            Leave out the background.
+        """
+        if self._sitter is None:
+            self._sitter = PaneMesh(self._scene)
+        positions = self.session.rig.evaluate(pose.weights)
+        self._sitter.upload(positions, self._shown[0].normals.twin().normals(positions))
+        overlays = BARE
+        if over is not None:
+            shading = "studio" if over.shading == "heat" else over.shading
+            overlays = Overlays(None, over.wireframe, self._ghost_of(over), shading)
+        markers = _markers(pose, positions, DragTool())
+
+        def draw_pins(canvas: Canvas, framing: Framing, scale: float) -> None:
+            self._markers.draw_framed(canvas, framing, markers, scale=scale)
+
+        return draw_picture(
+            self._sitter,
+            camera,
+            size,
+            transparent=transparent,
+            overlays=overlays,
+            scale=scale,
+            overlay=draw_pins if pins and pose.pins else None,
+        )
+
+    def _ghost_of(self, view: PaneView) -> PaneMesh | None:
+        """Return the ghost that a pane shows, if any."""
+        reference = self.session.work.reference
+        if view.ghost == "neutral" or (view.ghost == "reference" and reference is not None):
+            return self._ghost(view.ghost, None if view.ghost == "neutral" else reference)
+        return None
 
     def _ghost(self, kind: Ghost, weights: Floats | None) -> PaneMesh:
         """Return the mesh of a ghost, with the pose of `weights`; None is the neutral."""
@@ -250,6 +309,8 @@ class Stage:
             shown.mesh.release()
         for shell in self._shells.values():
             shell.mesh.release()
+        if self._sitter is not None:
+            self._sitter.release()
         self._markers.release()
         self._still.release()
         self._scene.release()

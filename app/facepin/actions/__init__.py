@@ -10,9 +10,11 @@ from facepin.actions import (
     files,
     helping,
     landmarks,
+    library,
     mirroring,
     pinning,
     posing,
+    series,
     viewing,
 )
 from facepin.desk import Desk
@@ -27,6 +29,8 @@ TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
     comparing.act,
     viewing.act,
     helping.act,
+    library.act,
+    series.act,
 )
 
 

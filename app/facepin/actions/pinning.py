@@ -8,6 +8,7 @@ from facepin.core.pose import Pin, with_changed
 from facepin.desk import Desk
 from facepin.panels.requests import Command, NamePin, RemovePins, Request, SelectPins, SetPins
 from facepin.session.edit import Edit
+from facepin.session.mirroring import twins_of
 from facepin.session.moving import amount
 from facepin.session.session import Session
 
@@ -18,6 +19,11 @@ def act(request: Request, desk: Desk) -> bool:
     if session is None:
         return False
     pins, selected = session.pose.pins, desk.tool.selected
+
+    def meant(vertices: Collection[int]) -> Collection[int]:
+        """Return vertices, with their twins where these do the same."""
+        return twins_of(session.mirror, vertices) if desk.view.symmetric else vertices
+
     match request:
         case SelectPins(vertices):
             desk.tool.selected = vertices
@@ -25,14 +31,14 @@ def act(request: Request, desk: Desk) -> bool:
             desk.tool.selected = frozenset(pin.vertex for pin in pins if not pin.hidden)
         case Command.SKETCH_PINS:
             desk.view.pins.sketching = not desk.view.pins.sketching
-        case SetPins():
-            _set(desk, session, request)
+        case SetPins(vertices):
+            _set(desk, session, replace(request, vertices=frozenset(meant(vertices))))
         case NamePin(vertex, name):
             _name(desk, pins, vertex, " ".join(name.split()))
         case RemovePins(vertices):
-            _remove(desk, pins, vertices)
+            _remove(desk, pins, meant(vertices))
         case Command.DELETE_PINS:
-            _remove(desk, pins, selected)
+            _remove(desk, pins, meant(selected))
         case Command.CLEAR_PINS:
             _remove(desk, pins, {pin.vertex for pin in pins})
         case Command.LOCK_PINS if selected:

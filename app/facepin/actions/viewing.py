@@ -1,8 +1,19 @@
 """How the face is looked at."""
 
+from math import radians
+
 from facepin.core.camera import frame_points
 from facepin.desk import Desk
 from facepin.panels.requests import VIEW_COMMANDS, Command, Request
+
+STEP = radians(15)
+TURNS: dict[Command, tuple[float, float]] = {
+    Command.TURN_LEFT: (-STEP, 0.0),
+    Command.TURN_RIGHT: (STEP, 0.0),
+    Command.TURN_UP: (0.0, STEP),
+    Command.TURN_DOWN: (0.0, -STEP),
+}
+"""Changes of yaw and pitch."""
 
 
 def act(request: Request, desk: Desk) -> bool:
@@ -19,6 +30,9 @@ def act(request: Request, desk: Desk) -> bool:
             desk.look(frame_points(stage.positions(active), desk.viewport.aspect, desk.camera))
         case Command() if request in VIEW_COMMANDS:
             desk.look(desk.camera.looking(VIEW_COMMANDS[request]))
+        case Command() if request in TURNS:
+            yaw, pitch = TURNS[request]
+            desk.look(desk.camera.orbited(yaw, pitch))
         case Command.SHADING:
             shown.next_mode()
         case Command.HEAT:

@@ -8,8 +8,6 @@ GAP = 0.3
 LONGEST_GAP = 10
 WHOLE_WORD = 5.0
 """What it is worth that a word was typed from its beginning to its end."""
-LENGTH = 0.02
-"""What each letter of the phrase costs: of two that fit alike, the shorter one is meant."""
 
 Way = tuple[float, tuple[int, ...]]
 """How well the letters fit, and which ones of the phrase they are."""
@@ -51,7 +49,7 @@ def match(word: str, phrase: str) -> Way | None:
     ends = last + 1 == len(phrase) or not phrase[last + 1].isalnum()
     if ends and worths[first] == WORD_START and len(found) == last - first + 1:
         worth += WHOLE_WORD
-    return worth - LENGTH * len(phrase), found
+    return worth, found
 
 
 def _step(way: Way, at: int, worth: float) -> Way:

@@ -15,7 +15,7 @@ from facepin.core.pose import Pose
 from facepin.figures import charts
 from facepin.figures.chart_style import number, write_chart
 from facepin.figures.comparison import Answer, Comparison, as_json, compare, weights_csv
-from facepin.figures.pictures import Painter, Pane, heat_legend, write_sheet
+from facepin.figures.pictures import Painter, heat_legend
 from facepin.files.atomic import atomic_write
 from facepin.files.pins_file import write_pins
 from facepin.files.pose_file import write_pose
@@ -28,6 +28,7 @@ from facepin.options import (
     picture_size,
     solver_choices,
 )
+from facepin.sheets import Pane, write_sheet
 from facepin.solvers.colours import INKS, REFERENCE
 
 if TYPE_CHECKING:

@@ -28,9 +28,10 @@ from facepin.figures.compare import (
 )
 from facepin.figures.comparison import Comparison, compare
 from facepin.figures.page import Remake
-from facepin.figures.pictures import Painter, Pane, heat_legend, write_sheet
+from facepin.figures.pictures import Painter, heat_legend
 from facepin.figures.posing import DELIGHT, dragged, handles, most_moved_in_sight, named_weights
 from facepin.session.solving import choose
+from facepin.sheets import Pane, write_sheet
 from facepin.solvers.colours import INKS, REFERENCE
 
 if TYPE_CHECKING:

@@ -5,6 +5,7 @@ import json
 from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.files.atomic import atomic_write
-from facepin.files.checked_json import parse_json
+from facepin.files.checked_json import JsonObject, parse_json
 from facepin.files.pins_file import parse_pins, pins_as_json
 from facepin.files.reading import read_bytes
 from facepin.files.shape_spelling import match_shapes
@@ -38,7 +39,24 @@ def read_pose(path: Path, rig: Rig) -> tuple[Pose, str]:
     FacepinError
         If the file cannot be read, is not a pose, or is of a newer version.
     """
-    weights, pins, report = _reader_for(path)(path, rig)
+    return _on_rig(rig, *_reader_for(path)(path, rig))
+
+
+def pose_of_document(document: JsonObject, rig: Rig) -> tuple[Pose, str]:
+    """Return the pose in a document on `rig`, as `read_pose` does.
+
+    Raises
+    ------
+    FacepinError
+        If it is not a pose, or is of a newer version.
+    """
+    return _on_rig(rig, *_content(document, rig))
+
+
+def _on_rig(
+    rig: Rig, weights: dict[str, float], pins: tuple[Pin, ...], report: list[str]
+) -> tuple[Pose, str]:
+    """Find the shapes of a file in a rig; add to the report what is in one of them only."""
     values = np.zeros(rig.shape_count)
     unknown = []
     for (name, weight), place in zip(
@@ -64,29 +82,41 @@ def write_pose(path: Path, rig: Rig, pose: Pose) -> None:
     FacepinError
         For another suffix, or if it cannot be written.
     """
-    weights = {name: float(weight) for name, weight in zip(rig.shape_names, pose.weights, strict=True)}
     if path.suffix.lower() == ".csv":
         table = StringIO()
-        csv.writer(table, lineterminator="\n").writerows([("shape", "weight"), *weights.items()])
+        rows = [("shape", "weight"), *_by_name(rig, pose).items()]
+        csv.writer(table, lineterminator="\n").writerows(rows)
         atomic_write(path, table.getvalue().encode())
         return
     if path.suffix.lower() != ".json":
         raise _unknown_suffix(path)
-    document = {
+    text = json.dumps(pose_document(rig, pose), indent=1, ensure_ascii=False, allow_nan=False)
+    atomic_write(path, f"{text}\n".encode())
+
+
+def pose_document(rig: Rig, pose: Pose) -> dict[str, Any]:
+    """Return what a pose file holds."""
+    return {
         "format": FORMAT,
         "version": VERSION,
         "rig": {"name": rig.name, "shapes": rig.shape_count, "vertices": rig.vertex_count},
-        "weights": weights,
+        "weights": _by_name(rig, pose),
         "pins": pins_as_json(pose.pins),
     }
-    atomic_write(path, (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode())
+
+
+def _by_name(rig: Rig, pose: Pose) -> dict[str, float]:
+    return {name: float(weight) for name, weight in zip(rig.shape_names, pose.weights, strict=True)}
 
 
 Content = tuple[dict[str, float], tuple[Pin, ...], list[str]]
 
 
 def _read_json(path: Path, rig: Rig) -> Content:
-    document = parse_json(read_bytes(path), path.name)
+    return _content(parse_json(read_bytes(path), path.name), rig)
+
+
+def _content(document: JsonObject, rig: Rig) -> Content:
     if document.text("format", FORMAT) != FORMAT:
         document.refuse("format", f'"{FORMAT}"')
     if document.integer("version", VERSION, low=1) > VERSION:

@@ -1,6 +1,7 @@
-"""Whether a command can do anything now, and if not, why."""
+"""Whether a command can do anything now, and if not, why; and whether it did already."""
 
 from facepin.panels.requests import Command
+from facepin.panels.view import View
 from facepin.session.session import Session
 
 WITHOUT_FACE = frozenset(
@@ -17,6 +18,16 @@ WITHOUT_FACE = frozenset(
     }
 )
 """What makes sense before a face is open."""
+OF_PINS = frozenset(
+    {
+        Command.SELECT_PINS,
+        Command.LOCK_PINS,
+        Command.HIDE_PINS,
+        Command.DELETE_PINS,
+        Command.CLEAR_PINS,
+    }
+)
+"""What makes sense where pins are."""
 
 
 def why_not(command: Command, session: Session | None) -> str:
@@ -28,13 +39,7 @@ def why_not(command: Command, session: Session | None) -> str:
             return "nothing to undo"
         case Command.REDO if session.redo_label is None:
             return "nothing to redo"
-        case (
-            Command.SELECT_PINS
-            | Command.DELETE_PINS
-            | Command.CLEAR_PINS
-            | Command.LOCK_PINS
-            | Command.HIDE_PINS
-        ) if not session.pose.pins:
+        case command if command in OF_PINS and not session.pose.pins:
             return "there are no pins"
         case Command.SHOW_PINS if not any(pin.hidden for pin in session.pose.pins):
             return "no pin is hidden"
@@ -43,3 +48,17 @@ def why_not(command: Command, session: Session | None) -> str:
         case Command.FORGET_REFERENCE if session.work.reference is None:
             return "no reference is set"
     return ""
+
+
+def is_on(command: Command, view: View, active: int) -> bool:
+    """Say whether what a command switches on and off is on, in the active pane where each has its own."""
+    match command:
+        case Command.SYMMETRY:
+            return view.symmetric
+        case Command.WIREFRAME:
+            return view.panes[active].wireframe
+        case Command.SKETCH_PINS:
+            return view.pins.sketching
+        case Command.CHART:
+            return view.chart
+    return False

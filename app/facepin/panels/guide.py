@@ -18,7 +18,7 @@ from facepin.session.navigation import Habit
 
 BEAT = 1.1
 """Seconds that one turn of a small picture takes."""
-BEATS = 4
+BEATS = 5
 """Turns before it comes to rest: nobody is nagged, and a resting window costs nothing."""
 PATIENCE = 4
 """Changes of the pose after which a step that was not followed is over."""
@@ -134,12 +134,17 @@ def draw_guide(
     text = imgui.calc_text_size(step.text).x
     dots = len(STEPS) * 0.6 * line
     gap, pad = 0.7 * line, 0.9 * line
-    wide, tall = pad + sign + gap + text + gap + dots + pad, 2.2 * line
+    room = viewport.width / pixel_ratio
+    wide, tall = pad + sign + gap + text + pad, 2.2 * line
+    count = len(STEPS) if wide + gap + dots < room else 0
+    wide += gap + dots if count else 0.0
+    if wide > room:
+        return  # half a sentence teaches nothing
     left = (viewport.x + viewport.width / 2) / pixel_ratio - wide / 2
     top = (viewport.y + viewport.height) / pixel_ratio - tall - 0.8 * line
     draw = imgui.get_background_draw_list()
     corner, opposite = imgui.ImVec2(left, top), imgui.ImVec2(left + wide, top + tall)
-    draw.add_rect_filled(corner, opposite, packed((0.04, 0.042, 0.05, 0.78)), tall / 2)
+    draw.add_rect_filled(corner, opposite, packed(PICTURE.bar, 0.8), tall / 2)
     draw.add_rect(corner, opposite, packed(tinted(PICTURE.ink, 0.12)), tall / 2, thickness=scale)
     middle = top + tall / 2
     if key:
@@ -150,7 +155,7 @@ def draw_guide(
     x = left + pad + sign + gap
     draw.add_text(imgui.ImVec2(x, middle - line / 2), packed(PICTURE.text), step.text)
     x += text + gap
-    for number in range(len(STEPS)):
+    for number in range(count):
         colour = PICTURE.accent if number == guide.step else tinted(PICTURE.text_dim, 0.7)
         at = imgui.ImVec2(x + (number + 0.5) * 0.6 * line, middle)
         draw.add_circle_filled(at, (0.19 if number == guide.step else 0.14) * line, packed(colour), 16)

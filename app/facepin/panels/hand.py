@@ -100,6 +100,28 @@ def sketch_hint(count: int, habit: Habit, viewport: Viewport, pixel_ratio: float
     draw.add_text(imgui.ImVec2(x, middle - line / 2), packed(PICTURE.text), text)
 
 
+def symmetry_sign(viewport: Viewport, pixel_ratio: float, scale: float) -> None:
+    """Say in a corner of the picture that what is done to one side is done to both."""
+    text = "Symmetry"
+    size, pad = imgui.calc_text_size(text), 5 * scale
+    right = (viewport.x + viewport.width) / pixel_ratio - 8 * scale
+    bottom = (viewport.y + viewport.height) / pixel_ratio - 8 * scale
+    # Two wings and the line between them.
+    wing = 0.55 * size.y
+    wide = size.x + 2.6 * wing + 3 * pad
+    corner = imgui.ImVec2(right - wide, bottom - size.y - 2 * pad)
+    draw = imgui.get_background_draw_list()
+    draw.add_rect_filled(corner, imgui.ImVec2(right, bottom), packed((0, 0, 0, 0.5)), 4 * scale)
+    x, y = corner.x + pad + 1.3 * wing, bottom - pad - size.y / 2
+    accent = packed(PICTURE.accent)
+    for side in (-1, 1):
+        near, far = x + side * 0.35 * wing, x + side * 1.2 * wing
+        upper, lower = imgui.ImVec2(far, y - 0.7 * wing), imgui.ImVec2(far, y + 0.7 * wing)
+        draw.add_triangle_filled(imgui.ImVec2(near, y), upper, lower, accent)
+    draw.add_line(imgui.ImVec2(x, y - 0.8 * wing), imgui.ImVec2(x, y + 0.8 * wing), accent, scale)
+    draw.add_text(imgui.ImVec2(right - pad - size.x, bottom - pad - size.y), packed(PICTURE.text), text)
+
+
 def hidden_pins(
     count: int, habit: Habit, viewport: Viewport, pixel_ratio: float, scale: float
 ) -> Command | None:

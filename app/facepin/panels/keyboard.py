@@ -15,22 +15,29 @@ from facepin.session.navigation import PRESETS, Habit, Motion, dolly, orbit, pan
 COLUMN = 25.0
 """Width of a column, in heights of a letter."""
 
-HAND: tuple[tuple[str, str], ...] = (
-    ("Click on the face", "Place a pin"),
-    ("Drag", "Move a pin: the face follows"),
-    ("Shift+Click a pin", "Select one more"),
-    ("Ctrl+Drag", "Select pins with a rubber band"),
-    ("Right click a pin", "What it holds, lock, hide"),
-    ("Arrow keys", "Nudge selected pins; Shift: by ten"),
-    ("Page Up", "Push them away"),
-    ("Page Down", "Pull them near"),
-    ("Esc", "Give up the drag in hand"),
+ABOVE = 0.8
+"""Room above a heading, in lines."""
+
+Line = tuple[tuple[str, ...], str]
+"""Keys or gestures that do the same, and what they do."""
+
+HAND: tuple[Line, ...] = (
+    (("Click on the face",), "Place a pin"),
+    (("Drag",), "Move a pin: the face follows"),
+    (("Shift+Click a pin",), "Select one more"),
+    (("Right click a pin",), "What it holds; lock, hide"),
+    (("Arrows",), "Nudge selected pins by a pixel"),
+    (("Shift+Arrows",), "Nudge them by ten"),
+    (("Page up",), "Nudge them away"),
+    (("Page down",), "Nudge them nearer"),
+    (("Esc",), "Give up the drag in hand"),
 )
-"""What the mouse does on the face."""
-SLIDERS: tuple[tuple[str, str], ...] = (
-    ("Drag", "Set the weight"),
-    ("Ctrl+Click", "Type a number"),
-    ("Double click", "Back to 0"),
+"""What the hand does on the face."""
+BOX = "Select pins in a box"
+SLIDERS: tuple[Line, ...] = (
+    (("Drag",), "Set the weight"),
+    (("Ctrl+Click",), "Type a number"),
+    (("Double click",), "Back to 0"),
 )
 """What the mouse does on a weight."""
 
@@ -40,21 +47,23 @@ class Section:
     """Some lines under a heading."""
 
     title: str
-    lines: tuple[tuple[tuple[str, ...], str], ...]
-    """Keys that do the same, and what they do."""
+    lines: tuple[Line, ...]
 
     @property
     def height(self) -> float:
         """In lines; there is room above the next heading."""
-        return len(self.lines) + 1.8
+        return len(self.lines) + 1 + ABOVE
 
 
 def sections(habit: Habit) -> list[Section]:
     """Return all keys and gestures that someone with a habit has."""
+    boxes: tuple[str, ...] = ("Ctrl+Drag",)
+    if ("left", Modifiers()) not in PRESETS[habit].motions:
+        boxes = ("Drag beside the face", *boxes)
     found = [
-        Section("Mouse on the face", tuple(((how,), what) for how, what in HAND)),
+        Section("On the face", (*HAND, (boxes, BOX))),
         Section(f"Camera, as in {PRESETS[habit].title}", _camera(habit)),
-        Section("Mouse on a weight", tuple(((how,), what) for how, what in SLIDERS)),
+        Section("On a weight", SLIDERS),
     ]
     for topic in get_args(Topic):
         lines = tuple(
@@ -67,7 +76,7 @@ def sections(habit: Habit) -> list[Section]:
     return found
 
 
-def _camera(habit: Habit) -> tuple[tuple[tuple[str, ...], str], ...]:
+def _camera(habit: Habit) -> tuple[Line, ...]:
     """Read the gestures off the table that the mouse obeys."""
     titles: dict[Motion, str] = {orbit: "Turn", pan: "Shift", dolly: "Come closer"}
     ways: dict[str, list[str]] = {title: [] for title in titles.values()}
@@ -104,8 +113,9 @@ def keyboard_map(habit: Habit, theme: Theme, scale: float) -> bool:
     found = sections(habit)
     count = int(max(1, min(3, (room.x - padding) // (COLUMN * em + padding))))
     columns = in_columns(found, count)
-    line = 1.55 * em
-    tall = (max(height(column) for column in columns) - 0.8) * line
+    lines = max(height(column) for column in columns) - ABOVE
+    line = min(1.6 * em, max((room.y - 2 * padding) / lines, 1.3 * em))  # closer before it has to be scrolled
+    tall = lines * line
     size = imgui.ImVec2(
         min(len(columns) * (COLUMN * em + padding) + padding, room.x), min(tall + 2 * padding, room.y)
     )

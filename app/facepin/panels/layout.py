@@ -7,6 +7,7 @@ from facepin.core.camera import Viewport
 WEIGHTS = "Weights"
 SOLVER = "Solver"
 PINS = "Pins"
+LIBRARY = "Poses"
 PANEL_WIDTH = 330.0
 SOLVER_HEIGHT = 332.0
 """First sizes of the docked panels, in pixels at 1x scale."""
@@ -75,10 +76,15 @@ def without_background(name: str) -> None:
             imgui.set_next_window_bg_alpha(0.0)
 
 
+def is_known(name: str) -> bool:
+    """Say whether a window has been drawn before."""
+    return imgui.internal.find_window_by_name(name) is not None
+
+
 def beside(name: str, other: str) -> None:
     """Dock the next window, `name`, as a tab with `other` where a layout of former days doesn't know it."""
     window = imgui.internal.find_window_by_name(other)
-    if window is not None and window.dock_id and imgui.internal.find_window_by_name(name) is None:
+    if window is not None and window.dock_id and not is_known(name):
         imgui.set_next_window_dock_id(window.dock_id, imgui.Cond_.first_use_ever)
 
 
@@ -113,7 +119,7 @@ def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
 
 
 def _build(space: int, scale: float) -> None:
-    """Solver (and pins, as a tab) above weights, all right of the picture."""
+    """Solver (and pins, as a tab) above weights (and the library), all right of the picture."""
     builder = imgui.internal
     builder.dock_builder_remove_node(space)
     builder.dock_builder_add_node(space, imgui.internal.DockNodeFlagsPrivate_.dock_space)
@@ -126,4 +132,5 @@ def _build(space: int, scale: float) -> None:
     builder.dock_builder_dock_window(SOLVER, top)
     builder.dock_builder_dock_window(PINS, top)
     builder.dock_builder_dock_window(WEIGHTS, bottom)
+    builder.dock_builder_dock_window(LIBRARY, bottom)
     builder.dock_builder_finish(space)

@@ -5,11 +5,12 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from facepin.core.pose import Pin
 from facepin.panels import layout
-from facepin.panels.overlays import close_on_escape, overlay_items
+from facepin.panels.availability import why_not
+from facepin.panels.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.pins import STROKES
 from facepin.panels.requests import (
+    VIEW_COMMANDS,
     AddPane,
     Choose,
     ClosePane,
@@ -25,6 +26,12 @@ from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
 from facepin.solvers import SOLVERS
+
+POSES_MENU = (
+    (Command.SAVE_TO_LIBRARY, Command.TAKE_POSES),
+    (Command.CONTACT_SHEET, Command.POSE_PICTURES, Command.TURNTABLE),
+    (Command.FILMSTRIP, Command.SAVE_FILMSTRIP),
+)
 
 
 def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Request | None:
@@ -54,7 +61,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
             for path in recent:
                 if imgui.menu_item_simple(f"{path.name}##{path}"):
                     asked = OpenPath(path)
-                imgui.set_item_tooltip(str(path))
+                explain_item(str(path))
             imgui.end_menu()
         asked = _item(view, Command.OPEN_BUILTIN) or asked
         imgui.separator()
@@ -68,8 +75,8 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         imgui.end_menu()
     if imgui.begin_menu("Edit"):
         close_on_escape()
-        asked = _item(view, Command.UNDO, undo is not None, undo) or asked
-        asked = _item(view, Command.REDO, redo is not None, redo) or asked
+        asked = _item(view, Command.UNDO, not why_not(Command.UNDO, session), undo) or asked
+        asked = _item(view, Command.REDO, not why_not(Command.REDO, session), redo) or asked
         imgui.separator()
         asked = _item(view, Command.RESET_POSE) or asked
         imgui.separator()
@@ -79,7 +86,15 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         imgui.end_menu()
     if imgui.begin_menu("Pins", session is not None) and session is not None:
         close_on_escape()
-        asked = _pins(view, session.pose.pins) or asked
+        asked = _pins(view, session) or asked
+        imgui.end_menu()
+    if imgui.begin_menu("Poses", session is not None):
+        close_on_escape()
+        for number, group in enumerate(POSES_MENU):
+            if number:
+                imgui.separator()
+            for command in group:
+                asked = _item(view, command) or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()
@@ -87,7 +102,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         imgui.end_menu()
     if imgui.begin_menu("View"):
         close_on_escape()
-        for command in (Command.FRAME, Command.FRONT, Command.LEFT, Command.RIGHT, Command.THREE_QUARTER):
+        for command in (Command.FRAME, *VIEW_COMMANDS):
             asked = _item(view, command) or asked
         imgui.separator()
         if session is not None:
@@ -137,18 +152,19 @@ def _compare(view: View, session: Session) -> Request | None:
             if imgui.menu_item_simple(f"of {shapes} shape{'s' if shapes > 1 else ''}"):
                 asked = RandomReference(shapes)
         imgui.end_menu()
-    asked = _item(view, Command.FORGET_REFERENCE, session.work.reference is not None) or asked
+    forget = Command.FORGET_REFERENCE
+    asked = _item(view, forget, not why_not(forget, session)) or asked
     imgui.separator()
     return _item(view, Command.CHART) or asked
 
 
-def _pins(view: View, pins: Sequence[Pin]) -> Request | None:
+def _pins(view: View, session: Session) -> Request | None:
     """Draw the inside of the menu of pins."""
     asked: Request | None = None
     for command in (Command.SELECT_PINS, Command.LOCK_PINS, Command.HIDE_PINS, Command.DELETE_PINS):
-        asked = _item(view, command, bool(pins)) or asked
-    asked = _item(view, Command.SHOW_PINS, any(pin.hidden for pin in pins)) or asked
-    asked = _item(view, Command.CLEAR_PINS, bool(pins)) or asked
+        asked = _item(view, command, not why_not(command, session)) or asked
+    for command in (Command.SHOW_PINS, Command.CLEAR_PINS):
+        asked = _item(view, command, not why_not(command, session)) or asked
     imgui.separator()
     asked = _choices(view, "freedom") or asked
     asked = _item(view, Command.SKETCH_PINS, selected=view.pins.sketching) or asked
@@ -158,7 +174,8 @@ def _pins(view: View, pins: Sequence[Pin]) -> Request | None:
                 view.pins.stroke = count
         imgui.end_menu()
     imgui.separator()
-    asked = _item(view, Command.SAVE_LANDMARKS, any(pin.name for pin in pins)) or asked
+    save = Command.SAVE_LANDMARKS
+    asked = _item(view, save, not why_not(save, session)) or asked
     return _item(view, Command.LOAD_LANDMARKS) or asked
 
 
@@ -176,7 +193,7 @@ def _item(
         title, key_of(command, view.habit) or None, selected=selected, enabled=enabled
     )
     if command.help:
-        imgui.set_item_tooltip(command.help)
+        explain_item(command.help)
     return command if chosen else None
 
 
@@ -187,6 +204,6 @@ def _choices(view: View, name: str, enabled: bool = True) -> Choose | None:
         for value, title in choice.values.items():
             if imgui.menu_item_simple(title, selected=getattr(view, name) == value):
                 chosen = Choose(name, value)
-            imgui.set_item_tooltip(choice.help)
+            explain_item(choice.help)
         imgui.end_menu()
     return chosen

@@ -40,3 +40,13 @@ def close_on_escape() -> None:
     """Close the menu that is being drawn when Esc is pressed."""
     if imgui.is_key_pressed(imgui.Key.escape):
         imgui.close_current_popup()
+
+
+def explain_item(text: str) -> None:
+    """Explain the menu item under the mouse, beside the menu: what stands below it stays to be read."""
+    if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
+        gap = imgui.get_style().item_spacing.x / 2
+        x = imgui.get_window_pos().x + imgui.get_window_width() + gap
+        y = imgui.get_item_rect_min().y - imgui.get_style().window_padding.y
+        imgui.set_next_window_pos(imgui.ImVec2(x, y))
+        imgui.set_tooltip(text)

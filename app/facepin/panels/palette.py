@@ -7,7 +7,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.fuzzy import match
-from facepin.panels.availability import why_not
+from facepin.panels.availability import is_on, why_not
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.requests import (
     AddPane,
@@ -34,6 +34,8 @@ WIDTH = 38.0
 """Of the window, in heights of a letter."""
 IN_HELP = 2.0
 """What it is worth that a word stands in the help of an action, but not in its title."""
+SCATTERED = 1.9
+"""What it is worth at most that the letters of a word stand apart in a title: less than in the help."""
 LATELY = 3.0
 """What it is worth at most that an action was chosen lately."""
 
@@ -75,7 +77,8 @@ def _command(command: Command, view: View, session: Session | None) -> Entry:
     }.get(command)
     title = f"{command.title}: {label}" if label else command.title
     key, reason = key_of(command, view.habit), why_not(command, session)
-    return Entry(title, command.topic, command, command.help, key, reason)
+    on = is_on(command, view, session.active if session else 0)
+    return Entry(title, command.topic, command, command.help, key, reason, on)
 
 
 def _solvers(view: View, session: Session) -> list[Entry]:
@@ -125,13 +128,16 @@ def ranked(found: Sequence[Entry], query: str, lately: Sequence[str]) -> list[tu
         worth, letters = 0.0, set[int]()
         for word in query.split():
             way = match(word, entry.title)
-            if way is not None:
-                worth += way[0]
-                letters.update(way[1])
-            elif len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower():
-                worth += IN_HELP
-            else:
+            if len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower():
+                worth += IN_HELP if way is None else max(way[0], IN_HELP)
+            elif way is None:
                 break
+            elif len(word) > 2 and word.lower() not in entry.title.lower():
+                worth += min(way[0], SCATTERED)
+            else:
+                worth += way[0]
+            if way is not None:
+                letters.update(way[1])
         else:
             name = _plain(entry)
             if name in lately:

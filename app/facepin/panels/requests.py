@@ -8,10 +8,11 @@ from typing import Literal
 from facepin.core.camera import View
 from facepin.core.events import KeyPressed
 from facepin.core.pose import Freedom
+from facepin.panels.library_requests import LibraryRequest
 from facepin.session.navigation import Habit
 from facepin.session.solving import SolverChoice
 
-Topic = Literal["File", "Edit", "Pins", "View", "Compare", "Help", "More"]
+Topic = Literal["File", "Edit", "Pins", "Poses", "View", "Compare", "Help", "More"]
 """What commands are listed under, in this order."""
 
 
@@ -91,6 +92,38 @@ class Command(Enum):
     )
     SAVE_LANDMARKS = "Save landmarks…", (), "Pins", "Writes the names of pins and where they are on this rig."
     LOAD_LANDMARKS = "Load landmarks…", (), "Pins", "Places a pin on every landmark of a file."
+    SAVE_TO_LIBRARY = (
+        "Save the pose to the library",
+        ("Ctrl+B",),
+        "Poses",
+        "Keeps the pose beside the rig, with a picture: a click puts it back on the face.",
+    )
+    TAKE_POSES = (
+        "Add the poses of another rig…",
+        (),
+        "Poses",
+        "Copies a folder of poses into the library; shapes are matched by name.",
+    )
+    CONTACT_SHEET = (
+        "Save a contact sheet",
+        (),
+        "Poses",
+        "One image with all poses of the library and their names.",
+    )
+    POSE_PICTURES = (
+        "Save a picture of every pose",
+        (),
+        "Poses",
+        "A folder with one PNG for each pose of the library.",
+    )
+    TURNTABLE = (
+        "Save a turntable",
+        (),
+        "Poses",
+        "The face seen from all around, as pictures and as an animation.",
+    )
+    FILMSTRIP = "Filmstrip of this work", ("F5",), "Poses", "The steps that led to this pose, as pictures."
+    SAVE_FILMSTRIP = "Save the filmstrip", (), "Poses", "The steps that led to this pose, as one image."
     FRAME = "Frame the face", ("F",), "View", "Brings the whole face into the picture."
     FRONT = "Front", ("1", "Numpad 1"), "View", "Looks at the face from the front."
     LEFT = "Character's left", ("3", "Numpad 3"), "View", "Looks at the side that is left to the character."
@@ -106,6 +139,16 @@ class Command(Enum):
         "View",
         "Looks half from the side, half from the front.",
     )
+    BACK = "Back", ("Ctrl+1", "Ctrl+Numpad 1"), "View", "Looks at the back of the head."
+    TURN_LEFT = "Turn to the left", ("Numpad 4",), "View", "Steps round the face, to the left of the picture."
+    TURN_RIGHT = (
+        "Turn to the right",
+        ("Numpad 6",),
+        "View",
+        "Steps round the face, to the right of the picture.",
+    )
+    TURN_UP = "Turn up", ("Numpad 8",), "View", "Looks from a step higher."
+    TURN_DOWN = "Turn down", ("Numpad 2",), "View", "Looks from a step lower."
     SHADING = (
         "Next shading",
         ("S",),
@@ -179,6 +222,7 @@ VIEW_COMMANDS: dict[Command, View] = {
     Command.LEFT: "left",
     Command.RIGHT: "right",
     Command.THREE_QUARTER: "three-quarter",
+    Command.BACK: "back",
 }
 
 HABIT_KEYS: dict[Habit, dict[Command, tuple[str, ...]]] = {
@@ -331,6 +375,11 @@ class CancelLoading:
     """Give up opening a file."""
 
 
+@dataclass(frozen=True)
+class CancelJob:
+    """Give up what is being made beside the work."""
+
+
 Request = (
     Command
     | OpenPath
@@ -347,4 +396,6 @@ Request = (
     | RemovePins
     | SelectPins
     | CancelLoading
+    | CancelJob
+    | LibraryRequest
 )

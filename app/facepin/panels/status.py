@@ -1,4 +1,4 @@
-"""The status line and the loading card."""
+"""The status line and the card of what takes long."""
 
 from collections.abc import Sequence
 
@@ -6,7 +6,6 @@ from imgui_bundle import imgui
 
 from facepin.core.rig import Rig
 from facepin.panels import layout
-from facepin.panels.requests import CancelLoading
 from facepin.panels.theme import Theme
 
 
@@ -59,8 +58,8 @@ def status_line(
     imgui.end()
 
 
-def loading_card(name: str, fraction: float, line: str) -> CancelLoading | None:
-    """Draw how far the opening of a rig is; return a request when the user gives it up."""
+def progress_card(title: str, fraction: float, line: str) -> bool:
+    """Draw how far something long is; return whether the user gives it up."""
     view = imgui.get_main_viewport()
     middle = imgui.ImVec2(view.pos.x + view.size.x / 2, view.pos.y + view.size.y / 2)
     imgui.set_next_window_pos(middle, imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
@@ -69,12 +68,13 @@ def loading_card(name: str, fraction: float, line: str) -> CancelLoading | None:
         imgui.WindowFlags_.no_decoration
         | imgui.WindowFlags_.no_saved_settings
         | imgui.WindowFlags_.no_docking
+        | imgui.WindowFlags_.no_focus_on_appearing
     )
-    imgui.begin("##loading", None, flags)
-    imgui.text(f"Opening {name}")
+    imgui.begin("##progress", None, flags)
+    imgui.text(title)
     imgui.progress_bar(fraction, imgui.ImVec2(-1, 0))
     imgui.text_disabled(line)
     imgui.same_line(imgui.get_window_width() - 5 * imgui.get_font_size())
     cancelled = imgui.button("Cancel", imgui.ImVec2(-1, 0))
     imgui.end()
-    return CancelLoading() if cancelled else None
+    return cancelled

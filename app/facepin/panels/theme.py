@@ -86,30 +86,31 @@ VEIL = 0.72
 FONT_SIZE = 15.0
 """Height of text in pixels at 1x scale."""
 
+# All in steps of four pixels: a row in a frame is 23 high and ends 4 before the next.
 _SPACING = {
-    "window_padding": (10, 8),
-    "frame_padding": (7, 3),
-    "item_spacing": (8, 6),
-    "item_inner_spacing": (6, 4),
+    "window_padding": (12, 8),
+    "frame_padding": (8, 4),
+    "item_spacing": (8, 4),
+    "item_inner_spacing": (8, 4),
     "cell_padding": (4, 2),
-    "separator_text_padding": (16, 3),
-    "display_safe_area_padding": (3, 3),
+    "separator_text_padding": (16, 4),
+    "display_safe_area_padding": (4, 4),
 }
 _SIZES = {
     "scrollbar_size": 12,
     "grab_min_size": 4,
     "window_rounding": 0,
-    "child_rounding": 3,
-    "frame_rounding": 3,
+    "child_rounding": 4,
+    "frame_rounding": 4,
     "popup_rounding": 4,
     "grab_rounding": 2,
-    "tab_rounding": 3,
+    "tab_rounding": 4,
     "scrollbar_rounding": 6,
     "window_border_size": 1,
     "popup_border_size": 1,
     "frame_border_size": 0,
-    "docking_separator_size": 3,
-    "indent_spacing": 18,
+    "docking_separator_size": 2,
+    "indent_spacing": 16,
     "tab_bar_overline_size": 2,
 }
 

@@ -8,6 +8,7 @@ from facepin.core.pose import Freedom
 from facepin.core.quality import Quality
 from facepin.core.shading import MODES, Shading
 from facepin.panels.guide import Guide
+from facepin.panels.library_view import LibraryView
 from facepin.panels.pins import FREEDOMS, PinsView
 from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights import WeightsView
@@ -91,6 +92,11 @@ class View:
 
     weights: WeightsView = field(default_factory=WeightsView)
     pins: PinsView = field(default_factory=PinsView)
+    library: LibraryView = field(default_factory=LibraryView)
+    library_opens: bool = False
+    """The library panel was asked for just now."""
+    filmstrip: bool = False
+    """Whether the filmstrip is open."""
     freedom: Freedom = "space"
     """What new pins constrain."""
     symmetric: bool = False

@@ -1,7 +1,7 @@
 """The drag tool: turns what mouse and keys do over the face into edits of the pins."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from facepin.core.events import (
     Event,
@@ -16,6 +16,7 @@ from facepin.session.box import span
 from facepin.session.edit import Edit
 from facepin.session.gesture import Gesture
 from facepin.session.hold import Hold, take
+from facepin.session.mirroring import with_twins
 from facepin.session.moving import movable
 from facepin.session.nudge import Nudge, Step, step_of
 from facepin.session.sight import Sight, pin_at
@@ -37,6 +38,8 @@ class DragTool:
     _before: frozenset[int] = frozenset()
     """What was selected when the gesture began."""
     _nudge: Nudge | None = field(default=None)
+    _began: Sight | None = field(default=None)
+    """What was seen when pins began to be moved: their twins start from there too."""
 
     @property
     def holding(self) -> bool:
@@ -54,11 +57,16 @@ class DragTool:
         return self._nudge is not None
 
     def handle(self, event: Event, sight: Sight) -> Edit | None:
-        """Take one event; return what it changes, or None.
+        """Take one event; return what it changes, or None.  With a mirror, twins of pins do the same.
 
         A press on nothing takes no hold, so that the caller can give it to the camera.  Esc ends what is
         going on, the caller then cancels the session's gesture; else it takes the selection away.
         """
+        if self.gesture is None and self._nudge is None:
+            self._began = sight
+        return self._with_twins(self._handled(event, sight))
+
+    def _handled(self, event: Event, sight: Sight) -> Edit | None:
         match event:
             case PointerPressed(button="left") if self.gesture is None:
                 return self._press(event, sight)
@@ -84,7 +92,7 @@ class DragTool:
     def finish(self) -> Edit | None:
         """Return what keys have moved as one undo step, at once."""
         nudge, self._nudge = self._nudge, None
-        return nudge.edit(final=True) if nudge is not None else None
+        return self._with_twins(nudge.edit(final=True)) if nudge is not None else None
 
     def forget_gone(self, pins: Collection[Pin]) -> None:
         """Select no pins but those that are there."""
@@ -93,6 +101,14 @@ class DragTool:
             self.selected &= there
         if self.hovered not in there:
             self.hovered = None
+
+    def _with_twins(self, edit: Edit | None) -> Edit | None:
+        """Let the twins of the pins that an edit places or moves do the same."""
+        began = self._began
+        if edit is None or edit.pins is None or began is None or began.mirror is None:
+            return edit
+        pins = with_twins(began.mirror, began.pose.pins, edit.pins, began.positions)
+        return replace(edit, pins=pins)
 
     def _press(self, event: PointerPressed, sight: Sight) -> Edit | None:
         """Begin the gesture that fits what is under the mouse, if anything is."""

@@ -28,6 +28,11 @@ class History(Generic[T]):
         return self._steps[self._at].value
 
     @property
+    def done(self) -> tuple[Step[T], ...]:
+        """The steps up to now, the one that everything began with first."""
+        return tuple(self._steps[: self._at + 1])
+
+    @property
     def undo_label(self) -> str | None:
         """What undo would take back, or None."""
         return self._steps[self._at].label if self._at > 0 else None

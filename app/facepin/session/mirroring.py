@@ -41,7 +41,7 @@ def flipped_pose(mirror: Mirror, pose: Pose) -> Pose:
 
 
 def with_twins(
-    mirror: Mirror, before: tuple[Pin, ...], after: tuple[Pin, ...], positions: Points, held: int
+    mirror: Mirror, before: tuple[Pin, ...], after: tuple[Pin, ...], positions: Points
 ) -> tuple[Pin, ...]:
     """Let the twins of pins that were placed or dragged do the same on their side.
 
@@ -53,18 +53,17 @@ def with_twins(
         All pins as the gesture began, and as it wants them.
     positions : (n, 3) float32
         The face as the gesture began: where new twins hold it.
-    held : int
-        Vertex of the pin in the hand: where both twins were moved, those on its side lead.
 
     Returns
     -------
     tuple of Pin
-        `after`, with twins moved or added.  A pin on the middle stays on it.
+        `after`, with twins moved or added.  Where both of two twins were moved, the side of the first pin
+        leads.  A pin on the middle stays on it, a locked twin where it is.
     """
     old = {pin.vertex: pin for pin in before}
     new = {pin.vertex: pin for pin in after}
-    moved = {pin.vertex for pin in after if pin is not old.get(pin.vertex)}
-    side = _side(mirror, positions[held])
+    moved = [pin.vertex for pin in after if pin != old.get(pin.vertex)]
+    side = _side(mirror, positions[moved[0]]) if moved else 0.0
     for vertex in moved:
         pin, twin = new[vertex], int(mirror.vertices[vertex])
         if twin == vertex:
@@ -75,6 +74,8 @@ def with_twins(
         start = np.asarray(old[vertex].goal if vertex in old else positions[vertex], np.float64)
         shift = (np.asarray(pin.goal) - start) * (-1.0, 1.0, 1.0)
         other = old.get(twin)
+        if other is not None and other.locked:
+            continue
         rest = np.asarray(other.goal if other else positions[twin], np.float64)
         fresh = _reflected(mirror, pin) if other is None else replace(other, axes=_turned(pin.axes))
         new[twin] = replace(fresh, goal=as_vector(rest + shift))

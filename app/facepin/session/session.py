@@ -1,7 +1,7 @@
 """One open rig being posed: its panes, the undo history, and the solving of every edit."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import count
 
@@ -16,7 +16,8 @@ from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.edit import Edit
-from facepin.session.history import History
+from facepin.session.history import History, Step
+from facepin.session.shelf import Shelf
 from facepin.session.solving import PinSolver, Solved, SolverChoice, snapped
 
 MOST_PANES = 4
@@ -53,6 +54,8 @@ class Work:
     """Who is whose twin, where the user has said so."""
     reference: Floats | None = None
     """Weights (k,) that the panes are measured against (Figure 4a of the paper), if any."""
+    shelf: Shelf = field(default_factory=dict)
+    """What was done to poses of the library, see `facepin.session.shelf`."""
 
 
 class Session:
@@ -137,6 +140,11 @@ class Session:
     def redo_label(self) -> str | None:
         """What redo would bring back, or None."""
         return self._history.redo_label
+
+    @property
+    def steps(self) -> tuple[Step[Work], ...]:
+        """The undo steps up to now, with what they led to."""
+        return self._history.done
 
     def apply(self, edit: Edit) -> None:
         """Show an edit, and make it an undo step when it is final.
@@ -230,6 +238,18 @@ class Session:
         label = "Forget the reference" if weights is None else "Set the reference"
         kept = None if weights is None else frozen(weights, np.float64)
         self._show(label, replace(self._history.current, reference=kept), final=True)
+
+    def compare(self, label: str, weights: Floats, reference: Floats) -> None:
+        """Put weights (k,) on the active pane, to be measured against others (k,), as one step."""
+        before = self._history.current
+        panes = self._edited(before, Edit(label, True, weights=weights))
+        kept = frozen(reference, np.float64)
+        self._show(label, replace(before, panes=panes, reference=kept), final=True)
+
+    def arrange(self, label: str, changes: Shelf) -> None:
+        """Change poses of the library, as one step."""
+        before = self._history.current
+        self._show(label, replace(before, shelf={**before.shelf, **changes}), final=True)
 
     def cancel(self) -> None:
         """Drop the gesture in progress; the poses are exactly those before it."""

@@ -7,6 +7,7 @@ import numpy as np
 
 from facepin.core.arrays import Indices, Points
 from facepin.core.camera import Camera, Viewport
+from facepin.core.mirror import Mirror
 from facepin.core.picking import Hit, pick
 from facepin.core.pose import Freedom, Pin, Pose, as_vector
 from facepin.core.rig import Rig
@@ -42,6 +43,9 @@ class Sight:
     """How many pins are laid along a stroke; None where a press on the skin places a single pin."""
     beside: bool = False
     """Whether a drag beside the face selects with a rubber band; else it is left to the camera."""
+
+    mirror: Mirror | None = None
+    """Left and right of the rig, where twins of pins move along."""
 
     @property
     def shown_pins(self) -> tuple[Pin, ...]:

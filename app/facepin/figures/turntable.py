@@ -1,0 +1,66 @@
+"""The command `turntable`: a pose from all round, as an animated picture or as numbered ones."""
+
+from argparse import ArgumentParser, Namespace
+from math import pi
+from pathlib import Path
+
+from facepin.animation import write_animation
+from facepin.core.camera import Camera, frame_points
+from facepin.core.errors import FacepinError
+from facepin.figures.compare import made_folder, progress_line
+from facepin.figures.pictures import Painter
+from facepin.files.atomic import atomic_write
+from facepin.options import add_rig, count, first_pose, open_with_bar, picture_size
+
+SECONDS = 2.4
+"""Of one turn."""
+
+
+def add_options(parser: ArgumentParser) -> None:
+    """Declare the options of `facepin turntable`."""
+    add_rig(parser)
+    parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file (default: the neutral)")
+    parser.add_argument(
+        "--frames", type=count, default=36, metavar="N", help="pictures of one turn (default: 36)"
+    )
+    parser.add_argument(
+        "--size", type=picture_size, default=(480, 480), metavar="WxH", help="pixels (default: 480x480)"
+    )
+    parser.add_argument("--transparent", action="store_true", help="leave out the background")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        required=True,
+        metavar="PATH",
+        help="a .png becomes an animated PNG, a name without suffix a folder of numbered ones",
+    )
+
+
+def run(options: Namespace) -> Path:
+    """Do `facepin turntable`; return what was written."""
+    from facepin.gpu.picture import open_context, png_bytes
+
+    suffix = options.out.suffix.lower()
+    if suffix not in (".png", ""):
+        raise FacepinError(
+            f"{options.out.name}: a turntable is an animated .png or a folder, found '{options.out.suffix}'"
+        )
+    rig = open_with_bar(options.rig, options.neutral)
+    pose = first_pose(rig, options.pose, None)
+    positions = rig.evaluate(pose.weights)
+    camera = frame_points(positions, options.size[0] / options.size[1], Camera(radius=0.0))
+    images = []
+    with progress_line() as tell, open_context() as ctx:
+        painter = Painter(ctx, rig, options.size)
+        for number in range(options.frames):
+            tell(f"Picture {number + 1} of {options.frames}")
+            painter.camera = camera.orbited(2 * pi * number / options.frames, 0.0)
+            images.append(painter.paint(positions, transparent=options.transparent))
+        painter.release()
+    if suffix:
+        write_animation(options.out, images, SECONDS / options.frames)
+    else:
+        made_folder(options.out)
+        for number, image in enumerate(images):
+            atomic_write(options.out / f"{number:03}.png", png_bytes(image))
+    return Path(options.out)

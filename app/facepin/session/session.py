@@ -253,8 +253,17 @@ class Session:
         self._show(label, replace(self._history.current, reference=kept), final=True)
 
     def compare(self, label: str, weights: Floats, reference: Floats) -> None:
-        """Put weights (k,) on the active pane, to be measured against others (k,), as one step."""
+        """Put weights (k,) on the active pane, to be measured against others (k,), as one step.
+
+        Locks are obeyed and told as by `apply`.
+
+        Raises
+        ------
+        FacepinError
+            When all that differs is locked.
+        """
         before = self._history.current
+        self.message = ""
         panes = self._edited(before, Edit(label, True, weights=weights))
         kept = frozen(reference, np.float64)
         self._show(label, replace(before, panes=panes, reference=kept), final=True)

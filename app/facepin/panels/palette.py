@@ -32,8 +32,9 @@ ROWS = 11
 """Actions seen at once."""
 WIDTH = 38.0
 """Of the window, in heights of a letter."""
-IN_HELP = 2.0
-"""What it is worth that a word stands in the help of an action, but not in its title."""
+IN_HELP = 4.0
+"""What each letter of a word is worth that stands in the help of an action: less than one in its title, more
+than letters that are scattered there."""
 LATELY = 3.0
 """What it is worth at most that an action was chosen lately."""
 
@@ -126,11 +127,12 @@ def ranked(found: Sequence[Entry], query: str, lately: Sequence[str]) -> list[tu
         worth, letters = 0.0, set[int]()
         for word in query.split():
             way = match(word, entry.title)
-            if way is not None:
+            explained = len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower()
+            if way is not None and not (explained and way[0] < IN_HELP * len(word)):
                 worth += way[0]
                 letters.update(way[1])
-            elif len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower():
-                worth += IN_HELP
+            elif explained:
+                worth += IN_HELP * len(word)
             else:
                 break
         else:

@@ -19,6 +19,7 @@ from facepin.figures.movie import played
 from facepin.files import write_model
 from facepin.files.pins_file import write_pins
 from facepin.files.pose_file import write_pose
+from facepin.panels.guide import STEPS, Guide
 from facepin.panels.requests import CancelJob, Command
 from facepin.session.edit import Edit
 from facepin.session.filmstrip import filmstrip
@@ -86,6 +87,7 @@ def test_a_filmstrip_shows_the_steps_that_changed_the_pose() -> None:
 
 def test_a_filmstrip_keeps_the_pixels_of_the_viewport(app: App) -> None:
     app.desk.tool.selected = frozenset()
+    app.desk.view.guide = Guide(step=len(STEPS))  # nothing is written over the picture
     app.step(PointerMoved(5, 5), frames=6)
     place = app.frame.viewport
     left, top = round(place.x), round(place.y)

@@ -9,12 +9,14 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.desk import Desk
+from facepin.files.drafts import Leftover
 from facepin.panels import layout
 from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
 from facepin.panels.filmstrip import filmstrip_window
 from facepin.panels.guide import Hand, draw_guide
 from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint, symmetry_sign
+from facepin.panels.history import history_window
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
 from facepin.panels.library import Shown, library_panel
@@ -23,6 +25,7 @@ from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import pins_panel, together
+from facepin.panels.recovery import WorkRow, lost_card, recovery_card
 from facepin.panels.requests import CancelJob, CancelLoading, Command, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import progress_card, status_line
@@ -49,19 +52,27 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
+    left = bool(desk.keeper.left)
     spacing = imgui.get_style().item_spacing
     imgui.push_style_var(
         imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, 2 * spacing.y)
     )  # easier to hit
-    asked: list[Request | None] = [menu_bar(view, recent, session)]
+    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=left)]
     imgui.pop_style_var()
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
         timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
-    warnings = rig.warnings if rig else ()
-    status_line(rig, timing, desk.message, view.theme, is_error=desk.is_error, warnings=warnings)
+    status_line(
+        rig,
+        timing,
+        desk.message,
+        view.theme,
+        is_error=desk.is_error,
+        warnings=rig.warnings if rig else (),
+        unkept=desk.keeper.complaint,
+    )
     if desk.loading is not None and desk.loading.is_long:
         title = f"Opening {desk.loading.path.name}"
         if progress_card(title, desk.loading.fraction, desk.loading.line):
@@ -175,6 +186,35 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
         asked += wishes
     imgui.end()
     return edit, asked
+
+
+def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
+    """Draw what floats at the top of the picture, face or no face: history, unsaved work, a missing rig."""
+    place = (viewport.x / pixel_ratio, viewport.y / pixel_ratio)
+    width = viewport.width / pixel_ratio
+    session, view = desk.session, desk.view
+    asked: list[Request | None] = []
+    if view.history and session is not None:
+        steps, step = session.steps, session.step
+        view.history, wanted = history_window(session.rig, steps, step, *place, scale, view.theme)
+        asked.append(wanted)
+    if desk.opener.lost is not None:
+        asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
+    elif desk.keeper.left and view.recovery.shown:
+        rows = [_work_row(leftover) for leftover in desk.keeper.left]
+        asked.append(recovery_card(rows, view.recovery, *place, width, view.theme))
+    return [request for request in asked if request is not None]
+
+
+def _work_row(leftover: Leftover) -> WorkRow:
+    scene = leftover.scene
+    name = scene.rig.name if scene.of is None else f"{scene.of.name} ({scene.rig.name})"
+    pins, panes = len(scene.pins), len(scene.panes)
+    shapes = len(scene.panes[scene.active].weights)
+    about = [f"{leftover.time:%d %b %H:%M}"]
+    about += [f"{shapes} shape{'' if shapes == 1 else 's'}", f"{pins} pin{'' if pins == 1 else 's'}"]
+    about += [f"{panes} panes"] * (panes > 1)
+    return WorkRow(leftover.draft.path, name, "  ".join(about))
 
 
 def over_picture(

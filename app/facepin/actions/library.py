@@ -39,7 +39,6 @@ def act(request: Request, desk: Desk) -> bool:
             desk.view.library_opens = True
         case SavePose(title, tags):
             saved = library.save(session.pose, clean_name(title) or "Pose", tags)
-            desk.saved()
             desk.say(f"Saved {saved.title} in {library.folder}")
         case ApplyPose(key, add):
             _apply(desk, session, library.pose(key), add=add)
@@ -89,11 +88,11 @@ def _apply(desk: Desk, session: Session, pose: SavedPose, *, add: bool) -> None:
 
 def _arrange(desk: Desk, session: Session, library: Library, label: str, changes: Shelf) -> None:
     """Change poses of the library and their files; the pose on the face is as saved or unsaved as before."""
-    was_saved = desk.is_saved
+    was_saved = desk.keeper.is_saved(session)
     desk.say("")
     session.arrange(label, changes)
     if was_saved:
-        desk.saved()
+        desk.keeper.take_for_saved(session)
     library.follow()
 
 

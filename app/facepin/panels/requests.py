@@ -22,7 +22,7 @@ class Command(Enum):
     Menus, keys, the command palette, the keyboard map and their tooltips share this one table.
     """
 
-    OPEN_FILE = "Open file…", ("Ctrl+O",), "File", "Opens a face: .glb, .gltf, .vrm, .npz or .obj."
+    OPEN_FILE = "Open file…", ("Ctrl+O",), "File", "Opens a scene or a face: .glb, .gltf, .vrm, .npz or .obj."
     OPEN_FOLDER = (
         "Open folder of OBJ files…",
         ("Ctrl+Shift+O",),
@@ -36,7 +36,26 @@ class Command(Enum):
         "File",
         "Puts a saved pose on this face; shapes are matched by name, so it may come from another rig.",
     )
-    SAVE_POSE = "Save pose…", ("Ctrl+S",), "File", "Writes weights and pins as .json or .csv."
+    SAVE = (
+        "Save",
+        ("Ctrl+S",),
+        "File",
+        "Writes the scene: pins, weights, panes, cameras, and which rig they are for.",
+    )
+    SAVE_AS = "Save as…", ("Ctrl+Shift+S",), "File", "Writes the scene under another name."
+    LOCATE_RIG = (
+        "Show where the rig is…",
+        (),
+        "File",
+        "For a scene whose rig is not where it was when the scene was saved.",
+    )
+    UNSAVED_WORK = (
+        "Unsaved work…",
+        (),
+        "File",
+        "Lists what was not saved when Facepin was left; it can be taken up again.",
+    )
+    SAVE_POSE = "Save pose…", (), "File", "Writes weights and pins alone as .json or .csv, for other rigs."
     EXPORT = (
         "Export model…",
         ("Ctrl+E",),
@@ -44,9 +63,15 @@ class Command(Enum):
         "Writes the rig with its pose as .glb, or the posed mesh as .obj, .ply or .stl.",
     )
     SCREENSHOT = "Save picture", ("F12",), "File", "Saves what the selected pane shows as a PNG."
-    QUIT = "Quit", ("Ctrl+Q",), "File", "Leaves; a pose that was not saved is kept for the next start."
+    QUIT = "Quit", ("Ctrl+Q",), "File", "Leaves; what was not saved is kept and offered at the next start."
     UNDO = "Undo", ("Ctrl+Z",), "Edit", "Takes the last change back; a whole drag is one step."
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Edit", "Brings back what was undone."
+    HISTORY = (
+        "History",
+        ("Ctrl+Alt+Z",),
+        "Edit",
+        "Lists every step by its name; a click goes there, back or forth.",
+    )
     RESET_POSE = "Reset the pose", ("Home",), "Edit", "All weights to zero; pins stay on their points."
     SYMMETRY = (
         "Symmetry",
@@ -254,7 +279,7 @@ def command_for(event: KeyPressed, habit: Habit) -> Command | None:
 
 @dataclass(frozen=True)
 class OpenPath:
-    """Open the rig at a path."""
+    """Open the rig, the scene or the pose at a path."""
 
     path: Path
 
@@ -340,6 +365,27 @@ class SelectPins:
 
 
 @dataclass(frozen=True)
+class GoToStep:
+    """Undo or redo to one of the steps of the history."""
+
+    step: int
+
+
+@dataclass(frozen=True)
+class RestoreWork:
+    """Go on with unsaved work that a former window left over."""
+
+    draft: Path
+
+
+@dataclass(frozen=True)
+class DiscardWork:
+    """Throw unsaved work away that a former window left over."""
+
+    draft: Path
+
+
+@dataclass(frozen=True)
 class Choose:
     """Set one of the choices of `panels.view.CHOICES`."""
 
@@ -357,7 +403,7 @@ class PairShapes:
 
 @dataclass(frozen=True)
 class CancelLoading:
-    """Give up opening a file."""
+    """Give up opening a file, or looking for the rig of a scene."""
 
 
 @dataclass(frozen=True)
@@ -374,6 +420,9 @@ Request = (
     | ClosePane
     | KeepPane
     | RandomReference
+    | GoToStep
+    | RestoreWork
+    | DiscardWork
     | PairShapes
     | Choose
     | SetPins

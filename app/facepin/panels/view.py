@@ -8,6 +8,7 @@ from facepin.core.pose import Freedom
 from facepin.panels.guide import Guide
 from facepin.panels.library_view import LibraryView
 from facepin.panels.pins import FREEDOMS, PinsView
+from facepin.panels.recovery import RecoveryView
 from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights import WeightsView
 from facepin.session.navigation import PRESETS, Habit
@@ -82,6 +83,9 @@ class View:
     """One per pane."""
     chart: bool = False
     """Whether the chart window is open."""
+    history: bool = False
+    """Whether the history window is open."""
+    recovery: RecoveryView = field(default_factory=RecoveryView)
     linked: bool = True
     """One camera for all panes."""
     theme_name: ThemeName = "dark"

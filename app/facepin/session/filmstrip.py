@@ -19,7 +19,7 @@ class Still:
 def filmstrip(session: Session) -> tuple[Still, ...]:
     """Return the steps of the active pane up to now, without those that left its weights and pins alone."""
     stills: list[Still] = []
-    for step in session.steps:
+    for step in session.steps[: session.step + 1]:
         panes = step.value.panes
         pose = panes[min(session.active, len(panes) - 1)].pose
         if not stills:

@@ -7,8 +7,10 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.fuzzy import match
+from facepin.core.saved_pose import SavedPose
 from facepin.panels.availability import is_on, why_not
 from facepin.panels.key_caps import caps_width, draw_caps
+from facepin.panels.library_requests import ApplyPose
 from facepin.panels.requests import (
     AddPane,
     Choose,
@@ -54,7 +56,9 @@ class Entry:
     """Whether it is what is chosen already."""
 
 
-def entries(view: View, session: Session | None, recent: Sequence[Path]) -> list[Entry]:
+def entries(
+    view: View, session: Session | None, recent: Sequence[Path], poses: Sequence[SavedPose] = ()
+) -> list[Entry]:
     """List all actions there are, in the order of the table of commands; then what has a few values each."""
     found = [_command(command, view, session) for command in Command if command is not Command.PALETTE]
     if session is not None:
@@ -65,8 +69,16 @@ def entries(view: View, session: Session | None, recent: Sequence[Path]) -> list
             found.append(
                 Entry(f"{choice.title}: {title}", "Settings", Choose(name, value), choice.help, on=on)
             )
+    if session is not None:
+        found += [Entry(f"Pose: {pose.title}", "Poses", ApplyPose(pose.key), _words(pose)) for pose in poses]
     found += [Entry(f"Open {path.name}", "Recent", OpenPath(path), str(path)) for path in recent]
     return found
+
+
+def _words(pose: SavedPose) -> str:
+    """Say what choosing a pose of the library does; its tags find it too."""
+    tags = f" ({', '.join(pose.tags)})" if pose.tags else ""
+    return f"Puts this pose of the library on the face{tags}."
 
 
 def _command(command: Command, view: View, session: Session | None) -> Entry:
@@ -149,7 +161,13 @@ def _plain(entry: Entry) -> str:
     return entry.request.title if isinstance(entry.request, Command) else entry.title
 
 
-def palette(view: View, session: Session | None, recent: Sequence[Path], scale: float) -> Request | None:
+def palette(
+    view: View,
+    session: Session | None,
+    recent: Sequence[Path],
+    poses: Sequence[SavedPose],
+    scale: float,
+) -> Request | None:
     """Draw the command palette while it is open; return what the user chose, or None.
 
     Parameters
@@ -160,13 +178,16 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
         What is open, if anything; only read.
     recent : sequence of Path
         Rigs opened lately.
+    poses : sequence of SavedPose
+        The library.
     scale : float
         imgui units per pixel of a 1x screen.
     """
     state = view.palette
     if state is None:
         return None
-    fitting = ranked(entries(view, session, recent), state.query, view.lately)
+    found = entries(view, session, recent, poses)
+    fitting = ranked(found, state.query, view.lately)
     state.row = min(state.row, max(len(fitting) - 1, 0))
     area = imgui.get_main_viewport()
     row = imgui.get_frame_height()
@@ -191,7 +212,7 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
     )
     if query != state.query:
         state.query, state.row = query, 0
-        fitting = ranked(entries(view, session, recent), state.query, view.lately)
+        fitting = ranked(found, state.query, view.lately)
     step = _steps()
     if step and fitting:
         at, last = state.row + step, len(fitting) - 1

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from functools import partial
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +20,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested, FilesDropped, PointerMoved
 from facepin.files.drafts import leftovers
 from facepin.files.scene_file import Scene, read_scene
+from facepin.panels.guide import Guide
 from facepin.panels.requests import AddPane, CancelLoading, Command, DiscardWork, OpenPath, RestoreWork
 from facepin.session.edit import Edit
 from facepin.session.solving import choose
@@ -56,8 +57,20 @@ def workshop() -> Iterator[subprocess.Popen[str]]:
     program.communicate()
 
 
-small = partial(running, size=(480, 320))
-"""Runs the program in a small window: a picture of it takes less time."""
+@contextmanager
+def small(rig: Path, *, settings_folder: Path | None = None, wait: bool = True) -> Iterator[App]:
+    """Run the program in a small window, for someone who needs no first steps: both take less time."""
+    if settings_folder is not None:
+        experienced(settings_folder)
+    with running(rig, size=(480, 320), settings_folder=settings_folder, wait=wait) as app:
+        yield app
+
+
+def experienced(settings: Path) -> None:
+    """Remember that the first steps are done, where nothing is remembered yet."""
+    settings.mkdir(exist_ok=True)
+    if not (settings / "preferences.json").exists():
+        (settings / "preferences.json").write_text('{"guide": 1000}')
 
 
 def step_of(scene: Scene) -> float:
@@ -116,6 +129,7 @@ def test_killed_at_random_moments_at_most_the_gesture_in_hand_is_lost(
     for trial in range(KILLS):
         settings, log, scene = (tmp_path / f"{trial}" / name for name in ("settings", "log", "a.facepin"))
         log.parent.mkdir()
+        experienced(settings)
         workshop.stdin.write(f"{rig} {settings} {log} {scene}\n")
         workshop.stdin.flush()
         worker = int(workshop.stdout.readline())
@@ -305,7 +319,10 @@ def test_a_scene_that_cannot_be_read_leaves_everything_in_place(
         assert said in app.desk.message
 
 
-def test_broken_preferences_layout_and_drafts_are_set_aside_and_said(rig: Path, tmp_path: Path) -> None:
+def test_broken_preferences_layout_and_drafts_are_set_aside_and_said(
+    rig: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Guide, "moving", lambda *_: False)  # without preferences everyone is a newcomer
     odd = b"\xff\x00\x01 not what anyone wrote"
     (tmp_path / "autosave").mkdir()
     for name in ("preferences.json", "layout.ini", "autosave/1234.facepin"):

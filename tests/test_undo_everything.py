@@ -11,9 +11,11 @@ import pytest
 from facepin.actions import carry_out
 from facepin.core.arrays import Points
 from facepin.core.pose import Pin, as_vector
+from facepin.core.saved_pose import SavedPose
 from facepin.desk import Desk
 from facepin.files.pose_file import write_pose
 from facepin.panels import requests
+from facepin.panels.library_requests import LibraryRequest
 from facepin.panels.requests import Command, Request
 from facepin.panels.view import View
 from facepin.session.edit import Edit
@@ -42,6 +44,8 @@ NOT_HERE = {
     Command.SAVE_CHART,
     Command.OPEN_BUILTIN,  # begins another session
     Command.QUIT,
+    # Need the library of a rig and pictures of it.
+    *(command for command in Command if command.topic == "Poses"),
 }
 
 
@@ -126,9 +130,11 @@ ELSEWHERE = {
     requests.RestoreWork,
     requests.DiscardWork,
     requests.Choose,
+    requests.CancelJob,
+    *get_args(LibraryRequest),
 }
 """Requests about files and settings, which leave the session alone or begin another.  (A pose that is opened
-is an edit.)
+is an edit, and what is done to poses of the library is tried as the session sees it.)
 """
 
 
@@ -139,7 +145,11 @@ def test_every_request_is_tried_here() -> None:
 def random_edit(random: np.random.Generator, session: Session) -> None:
     """What hands and sliders do: a gesture of some steps, which ends, is given up, or goes on."""
     for final in (*[False] * random.integers(0, 3), bool(random.integers(4))):
-        match random.integers(5):
+        match random.integers(6):
+            case 5 if final:  # no gesture
+                key = str(random.integers(3))
+                pose = SavedPose(key, "A pose", (), 1.0, random.random(RIG.shape_count), "", {})
+                session.arrange("Arrange", {key: [None, pose][random.integers(2)]})
             case 4:
                 control = session.control
                 locked, muted, solo = (random.integers(0, 4, RIG.shape_count) == 0 for _ in range(3))
@@ -166,6 +176,7 @@ def state(session: Session) -> tuple[Work, list[object]]:
     control = work.control
     values: list[object] = [None if work.reference is None else work.reference.tobytes()]
     values += [flags.tobytes() for flags in (control.limits, control.locked, control.muted, control.solo)]
+    values.append(dict(work.shelf))
     values.append(None if work.mirror is None else work.mirror.shapes.tobytes())
     for pane in work.panes:
         began = None if pane.began is None else (pane.began.weights.tobytes(), pane.began.pins)

@@ -83,7 +83,8 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         desk.dialog.draw()
     if session is not None:
         asked.append(_pin_popup(desk, session.pose))
-    asked.append(palette(view, session, recent, scale))
+    poses = desk.library.poses if desk.library is not None else ()
+    asked.append(palette(view, session, recent, poses, scale))
     if view.keyboard:
         view.keyboard = keyboard_map(view.habit, view.theme, scale)
     if view.about:

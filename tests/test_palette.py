@@ -162,6 +162,13 @@ def test_a_pose_of_the_library_is_found_by_name_and_tag_and_put_on_the_face(tmp_
         assert app.session.pose.weights.max() == pytest.approx(0.8)
 
 
+def test_a_shading_is_chosen_by_its_name() -> None:
+    with running() as app:
+        called(app, "shading clay")
+        key(app, imgui.Key.enter)
+        assert app.desk.view.panes[0].mode == "clay"
+
+
 def test_nothing_fits_nonsense() -> None:
     assert ranked(entries(View(), None, []), "qqq", ()) == []
 

@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 
 from facepin.core.fuzzy import match
 from facepin.core.saved_pose import SavedPose
+from facepin.core.shading import MODES
 from facepin.panels.availability import is_on, why_not
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.library_requests import ApplyPose
@@ -20,6 +21,7 @@ from facepin.panels.requests import (
     OpenPath,
     RandomReference,
     Request,
+    ShadeAs,
     UseSolver,
     key_of,
 )
@@ -63,6 +65,11 @@ def entries(
     found = [_command(command, view, session) for command in Command if command is not Command.PALETTE]
     if session is not None:
         found += _solvers(view, session)
+        mode = view.panes[session.active].mode
+        found += [
+            Entry(f"Shading: {kind.title}", "View", ShadeAs(name), on=name == mode)
+            for name, kind in MODES.items()
+        ]
     for name, choice in CHOICES.items():
         for value, title in choice.values.items():
             on = getattr(view, name) == value

@@ -417,6 +417,13 @@ class PairShapes:
 
 
 @dataclass(frozen=True)
+class ShadeAs:
+    """Show the active pane in one of the modes of `core.shading.MODES`."""
+
+    mode: str
+
+
+@dataclass(frozen=True)
 class CancelLoading:
     """Give up opening a file, or looking for the rig of a scene."""
 
@@ -440,6 +447,7 @@ Request = (
     | DiscardWork
     | PairShapes
     | Choose
+    | ShadeAs
     | SetPins
     | NamePin
     | RemovePins

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from facepin.core.control import ShapeControl
 from facepin.core.heat import FULL, STOPS, from_oklab, heat_colours, heat_scale, hex_colours, oklab
 from facepin.core.pose import rest_pose
 from facepin.session.heat import HeatGauge
@@ -68,14 +69,14 @@ def test_oklab_is_undone() -> None:
 
 def test_moves_are_measured_from_where_the_drag_began() -> None:
     rig = sheet()
-    gauge = HeatGauge(rig)
+    gauge, control = HeatGauge(rig), ShapeControl.of(rig)
     start, now = np.array([0.5, 0, 0, 0]), np.array([0.5, 0.7, 0, 0])
     rest = rest_pose(rig)
     positions = rig.evaluate(now)
     pane = Pane(choose("transpose"), rest.with_weights(now), now)
 
-    free = gauge.heat(pane, positions)
-    dragged = gauge.heat(replace(pane, began=rest.with_weights(start)), positions)
+    free = gauge.heat(pane, control, positions)
+    dragged = gauge.heat(replace(pane, began=rest.with_weights(start)), control, positions)
     top = heat_scale(rig.height).top
     for heat, origin in ((free, rig.neutral), (dragged, rig.evaluate(start))):
         expected = np.sqrt(((positions - origin).astype(np.float64) ** 2).sum(axis=1)) / top
@@ -85,9 +86,9 @@ def test_moves_are_measured_from_where_the_drag_began() -> None:
 
 def test_the_same_moves_are_measured_once() -> None:
     rig = sheet()
-    gauge, rest = HeatGauge(rig), rest_pose(rig)
+    gauge, rest, control = HeatGauge(rig), rest_pose(rig), ShapeControl.of(rig)
     pane = replace(Pane(choose("transpose"), rest, rest.weights), began=rest)
-    first = gauge.heat(pane, rig.neutral)
-    assert gauge.heat(pane, rig.neutral) is first
-    assert gauge.heat(replace(pane), rig.neutral) is first, "the drag goes on"
-    assert not gauge.heat(pane, rig.neutral.copy()).any()
+    first = gauge.heat(pane, control, rig.neutral)
+    assert gauge.heat(pane, control, rig.neutral) is first
+    assert gauge.heat(replace(pane), control, rig.neutral) is first, "the drag goes on"
+    assert not gauge.heat(pane, control, rig.neutral.copy()).any()

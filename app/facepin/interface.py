@@ -63,12 +63,15 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     request = edit = None
     layout.without_background(layout.SOLVER)
     if imgui.begin(layout.SOLVER)[0] and session is not None:
-        request = solver_panel(session.rig, session.pane, session.active, desk.view.panes[session.active])
+        request = solver_panel(
+            session.rig, session.control, session.pane, session.active, desk.view.panes[session.active]
+        )
     imgui.end()
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
         edit = weights_panel(
             session.rig,
+            session.control,
             session.panes,
             session.active,
             desk.view.weights,

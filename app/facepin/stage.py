@@ -9,6 +9,7 @@ import numpy as np
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.camera import Camera, Viewport
+from facepin.core.control import ShapeControl
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.pose import Pose
@@ -36,6 +37,7 @@ class _Shown:
     mesh: PaneMesh
     gauge: HeatGauge
     weights: Floats | None = None
+    control: ShapeControl | None = None
     positions: Points | None = None
     appraised: tuple[Pane, Work, Appraisal] | None = None
     """The last appraisal, and what it was of."""
@@ -85,7 +87,7 @@ class Stage:
     def update(self) -> bool:
         """Deform what has new weights and send it to the graphics card; return whether anything had."""
         began = perf_counter()
-        panes = self.session.panes
+        panes, control = self.session.panes, self.session.control
         for _ in range(len(self._shown), len(panes)):
             first = self._shown[0]
             mesh, gauge = PaneMesh(self._scene), HeatGauge(self.session.rig)
@@ -93,10 +95,13 @@ class Stage:
         changed = False
         for shown, pane in zip(self._shown, panes, strict=False):
             weights = pane.pose.weights
-            if weights is not shown.weights:
-                shown.weights = weights
-                shown.positions = shown.deformer.deform(weights)
-                shown.mesh.upload(shown.positions, shown.normals.normals(shown.positions))
+            if weights is shown.weights and control is shown.control:
+                continue
+            shown.weights, shown.control = weights, control
+            positions = shown.deformer.deform(control.heard(weights))
+            if positions is not shown.positions:
+                shown.positions = positions
+                shown.mesh.upload(positions, shown.normals.normals(positions))
                 changed = True
         if changed:
             self.seconds = perf_counter() - began
@@ -112,7 +117,9 @@ class Stage:
         """Measure a pane's pose as it is shown."""
         work, shown = self.session.work, self._shown[pane]
         if shown.appraised is None or shown.appraised[:2] != (work.panes[pane], work):
-            found = self._appraiser.appraise(work.panes[pane], self.positions(pane), work.reference)
+            found = self._appraiser.appraise(
+                work.panes[pane], work.control, self.positions(pane), work.reference
+            )
             shown.appraised = work.panes[pane], work, found
         return shown.appraised[2]
 
@@ -123,7 +130,9 @@ class Stage:
     def overlays(self, pane: int, view: PaneView) -> Overlays:
         """Return what `view` shows over the face of a pane; measures and uploads only what it asks for."""
         work, shown = self.session.work, self._shown[pane]
-        heat = shown.gauge.heat(work.panes[pane], self.positions(pane)) if view.heat else None
+        heat = None
+        if view.heat:
+            heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
         if view.reach:
             heat = shown.gauge.reach(work.panes[pane])
         ghost = None

@@ -54,6 +54,7 @@ def load_pose(desk: Desk, session: Session, path: Path) -> None:
     """Put a pose file on the face, and say what of it did not fit."""
     loaded, report = read_pose(path, session.rig)
     desk.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
+    report = "; ".join(line for line in (report, session.message) if line)
     desk.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
 
 
@@ -84,5 +85,5 @@ def _save_pose(desk: Desk, session: Session, path: Path) -> None:
 
 
 def _export(desk: Desk, session: Session, path: Path) -> None:
-    write_model(session.rig, session.pose.weights, path)
+    write_model(session.rig, session.control.heard(session.pose.weights), path)
     desk.say(f"Exported {path}")

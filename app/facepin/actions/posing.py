@@ -17,8 +17,8 @@ def act(request: Request, desk: Desk) -> bool:
             label = session.redo_label
             desk.say(f"Redone: {label}" if session.redo() else "Nothing to redo")
         case Command.RESET_POSE:
-            desk.say("")
             session.reset()
+            desk.say(session.message)
         case _:
             return False
     return True

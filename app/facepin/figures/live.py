@@ -37,8 +37,8 @@ def write_session_charts(session: Session, folder: Path) -> None:
     note = (
         f"{rig.name}: {rig.vertex_count:,} vertices, {rig.shape_count} shapes; {len(session.pose.pins)} pins"
     )
-    write_chart(folder, "sliders", slider_panels(rig.shape_names, rig.limits, everything, note))
-    write_chart(folder, "weights", weight_bars(rig.shape_names, rig.limits, everything, note))
+    write_chart(folder, "sliders", slider_panels(rig.shape_names, session.control.limits, everything, note))
+    write_chart(folder, "weights", weight_bars(rig.shape_names, session.control.limits, everything, note))
     if reference is not None:
         write_chart(folder, "errors", error_charts(rig.shape_names, reference, series, note))
     table = StringIO()

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
+from facepin.core.control import ShapeControl
 from facepin.core.measures import out_of_range
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
@@ -21,7 +22,7 @@ HUGE = 10.0
 """A weight beyond this is worth a warning: the face is off the screen."""
 
 
-def solver_panel(rig: Rig, pane: Pane, at: int, view: PaneView) -> UseSolver | None:
+def solver_panel(rig: Rig, control: ShapeControl, pane: Pane, at: int, view: PaneView) -> UseSolver | None:
     """Draw the solver of pane number `at`; return what the user changes in this frame, or None.
 
     `view` is told whether the pane should show how far a radius reaches.
@@ -58,7 +59,7 @@ def solver_panel(rig: Rig, pane: Pane, at: int, view: PaneView) -> UseSolver | N
         if changed:
             request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
     imgui.separator()
-    _answer(rig, pane.pose, pane.solved)
+    _answer(rig, control, pane.pose, pane.solved)
     return request
 
 
@@ -92,12 +93,12 @@ def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any
     return changed, new
 
 
-def _answer(rig: Rig, pose: Pose, solved: Solved | None) -> None:
+def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved | None) -> None:
     """Draw what the last solve was like."""
     if solved is None:
         _sentence("Drag a point of the face: the solver's figures appear here.")
         return
-    outside = out_of_range(pose.weights, rig.limits)
+    outside = out_of_range(pose.weights, control.limits_at(pose.weights))
     largest = float(np.abs(pose.weights).max(initial=0.0))
     figures = {
         "solve time": f"{solved.seconds * 1e3:.2f} ms",

@@ -8,6 +8,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
+from facepin.core.control import ShapeControl
 from facepin.core.measures import active as active_shapes
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
@@ -32,7 +33,14 @@ class WeightsView:
 
 
 def weights_panel(
-    rig: Rig, panes: Sequence[Pane], active: int, view: WeightsView, scale: float, *, in_gesture: bool
+    rig: Rig,
+    control: ShapeControl,
+    panes: Sequence[Pane],
+    active: int,
+    view: WeightsView,
+    scale: float,
+    *,
+    in_gesture: bool,
 ) -> Edit | None:
     """Draw one slider per shape; return the change of weights the user makes in this frame, or None.
 
@@ -40,6 +48,8 @@ def weights_panel(
     ----------
     rig : Rig
         Its shapes are listed.
+    control : ShapeControl
+        Their limits.
     panes : sequence of Pane
         One bar each; with several, a shape's bars stand one under the other in the panes' colours.
     active : int
@@ -64,11 +74,12 @@ def weights_panel(
         room = imgui.get_content_region_avail().x
         widest = max(imgui.calc_text_size(rig.shape_names[j]).x for j in _samples(rig))
         names = min(widest + 10 * scale, room * 0.5)
+        limits = control.limits_at(pose.weights)
         clipper = imgui.ListClipper()
         clipper.begin(len(rows))
         while clipper.step():
             for row in range(clipper.display_start, clipper.display_end):
-                edit = _row(rig, pose, rows[row], names, scale, poses, colours) or edit
+                edit = _row(rig, pose, limits, rows[row], names, scale, poses, colours) or edit
     imgui.end_child()
     return edit
 
@@ -114,6 +125,7 @@ def _rows(rig: Rig, weights: Floats, view: WeightsView, in_gesture: bool) -> tup
 def _row(
     rig: Rig,
     pose: Pose,
+    limits: Floats,
     j: int,
     names: float,
     scale: float,
@@ -122,7 +134,7 @@ def _row(
 ) -> Edit | None:
     """Draw name, slider and number of one shape, with a bar for each pane."""
     weight = float(pose.weights[j])
-    low, high = (float(limit) for limit in rig.limits[j])
+    low, high = (float(limit) for limit in limits[j])
     outside = not low - VISIBLE <= weight <= high + VISIBLE
     visible = abs(weight) > VISIBLE
     name = rig.shape_names[j]

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from facepin.core import measures
 from facepin.core.arrays import Floats, Points
+from facepin.core.control import ShapeControl
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
 from facepin.session.session import Pane
@@ -36,13 +37,17 @@ class Appraiser:
         self._places: tuple[int, ...] | None = None
         self._resting: NDArray[np.intp] = np.zeros(0, np.intp)
 
-    def appraise(self, pane: Pane, positions: Points, reference: Floats | None) -> Appraisal:
+    def appraise(
+        self, pane: Pane, control: ShapeControl, positions: Points, reference: Floats | None
+    ) -> Appraisal:
         """Measure a pane.
 
         Parameters
         ----------
         pane : Pane
             Weights and pins.
+        control : ShapeControl
+            Whose limits count.
         positions : (n, 3) float32
             Its posed vertices.
         reference : (k,) float64
@@ -56,7 +61,7 @@ class Appraiser:
         return Appraisal(
             measures.percent(measures.pin_error(positions, pins), rig.height),
             measures.percent(far, rig.height),
-            measures.out_of_range(weights, rig.limits),
+            measures.out_of_range(weights, control.limits_at(weights)),
             measures.active(weights),
             None if reference is None else measures.e_rms(weights, reference),
         )

@@ -3,6 +3,7 @@
 import numpy as np
 
 from facepin.core.arrays import Floats, Points
+from facepin.core.control import ShapeControl
 from facepin.core.geodesic import geodesic_distances
 from facepin.core.heat import heat_scale
 from facepin.core.measures import moves
@@ -17,19 +18,22 @@ class HeatGauge:
         self._rig = rig
         self._top = heat_scale(rig.height).top
         self._began: Floats | None = None
+        self._control: ShapeControl | None = None
         self._origin: Points = rig.neutral
         self._measured: tuple[Points, Points] | None = None
         self._heat: Points = np.zeros(rig.vertex_count, np.float32)
         self._reached: tuple[tuple[int, ...], float] | None = None
         self._reach: Points = self._heat
 
-    def heat(self, pane: Pane, positions: Points) -> Points:
+    def heat(self, pane: Pane, control: ShapeControl, positions: Points) -> Points:
         """Return the moves of the vertices in shares of the top of the heat scale, (n,) float32.
 
         Parameters
         ----------
         pane : Pane
             Its last drag tells where moves are measured from; without one it is the neutral.
+        control : ShapeControl
+            Which shapes are to be seen.
         positions : (n, 3) float32
             Its posed vertices.
 
@@ -39,9 +43,10 @@ class HeatGauge:
             A new array only when the moves are others than in the call before.
         """
         began = None if pane.began is None else pane.began.weights
-        if began is not self._began:
-            self._began = began
-            self._origin = self._rig.neutral if began is None else self._rig.evaluate(began)
+        if began is not self._began or control is not self._control:
+            self._began, self._control = began, control
+            neutral = self._rig.neutral
+            self._origin = neutral if began is None else self._rig.evaluate(control.heard(began))
         measured = (positions, self._origin)
         if self._measured is None or any(
             new is not old for new, old in zip(measured, self._measured, strict=True)

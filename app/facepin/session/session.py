@@ -7,7 +7,9 @@ from itertools import count
 import numpy as np
 
 from facepin.core.arrays import Floats, frozen
+from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
+from facepin.core.names import listed
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
@@ -43,6 +45,8 @@ class Work:
     """What undo brings back."""
 
     panes: tuple[Pane, ...]
+    control: ShapeControl
+    """What holds for the shapes, in all panes."""
     reference: Floats | None = None
     """Weights (k,) that the panes are measured against (Figure 4a of the paper), if any."""
 
@@ -62,10 +66,10 @@ class Session:
             Pane(choice, pose, pose.weights, number=number) for number, choice in enumerate(choices)
         )
         self._numbers = count(len(panes))
-        self._history = History(Work(panes))
+        self._history = History(Work(panes, ShapeControl.of(rig)))
         self._preview: Work | None = None
         self._active = 0
-        self._solvers: dict[tuple[int, SolverChoice], PinSolver] = {}
+        self._solvers: dict[tuple[int, SolverChoice, ShapeControl], PinSolver] = {}
 
     @property
     def work(self) -> Work:
@@ -97,6 +101,11 @@ class Session:
         return self.pane.pose
 
     @property
+    def control(self) -> ShapeControl:
+        """What holds for the shapes."""
+        return self.work.control
+
+    @property
     def in_gesture(self) -> bool:
         """Whether an edit is being shown that is not an undo step yet."""
         return self._preview is not None
@@ -119,12 +128,13 @@ class Session:
     def apply(self, edit: Edit) -> None:
         """Show an edit, and make it an undo step when it is final.
 
-        A solver that fails leaves the last good poses in place and says so in `message`.
+        A solver that fails leaves the last good poses in place and says so in `message`.  So do new weights
+        for locked shapes: these stay as they are, and where nothing else is asked for, so does everything.
         """
         before = self._history.current
         self.message = ""
         try:
-            work = replace(before, panes=self._edited(before.panes, edit))
+            work = replace(before, panes=self._edited(before, edit))
         except FacepinError as error:
             self.message = str(error)
             work = self.work
@@ -172,11 +182,31 @@ class Session:
         self._active = 0
 
     def reset(self) -> None:
-        """Put all weights of all panes to zero; the goals of the pins follow the active pane's vertices."""
+        """Put all weights of all panes to zero; the goals of the pins follow the active pane's vertices.
+
+        Locked shapes stay as they are, which `message` says.
+        """
         before = self._history.current
-        zero = snapped(self.rig, before.panes[self.active].pose.with_weights(np.zeros(self.rig.shape_count)))
-        panes = tuple(pane.by_hand(zero) for pane in before.panes)
+        zero = np.zeros(self.rig.shape_count)
+        poses = [
+            pane.pose.with_weights(before.control.keeping_locked(zero, pane.pose.weights))
+            for pane in before.panes
+        ]
+        pins = snapped(self.rig, poses[self.active], before.control).pins
+        self.message = self._locks_in_the_way(before, zero)
+        panes = tuple(
+            pane.by_hand(pose.with_pins(pins)) for pane, pose in zip(before.panes, poses, strict=True)
+        )
         self._show("Reset the pose", replace(before, panes=panes), final=True)
+
+    def set_control(self, label: str, control: ShapeControl, *, final: bool = True) -> None:
+        """Restrain shapes in another way.
+
+        Weights and goals stay as they are: to mute a shape and to hear it again changes nothing.
+        """
+        if len(control.locked) != self.rig.shape_count:
+            raise ValueError(f"control of {len(control.locked)} shapes for {self.rig.shape_count}")
+        self._show(label, replace(self._history.current, control=control), final=final)
 
     def set_reference(self, weights: Floats | None) -> None:
         """Measure the panes against weights (k,) from now on; None forgets them."""
@@ -205,14 +235,16 @@ class Session:
         if final and work is not self._history.current:
             self._history.commit(label, work)
 
-    def _edited(self, panes: tuple[Pane, ...], edit: Edit) -> tuple[Pane, ...]:
+    def _edited(self, before: Work, edit: Edit) -> tuple[Pane, ...]:
         """Return the panes after an edit.
 
         Raises
         ------
         FacepinError
-            When a solver fails, or a weight that was typed is beyond all sense.
+            When a solver fails, a weight that was typed is beyond all sense, or all that is asked for is
+            locked.
         """
+        panes, control = before.panes, before.control
         pins = panes[0].pose.pins if edit.pins is None else edit.pins
         poses = [pane.pose.with_pins(pins) for pane in panes]
         if edit.weights is not None:
@@ -223,9 +255,14 @@ class Session:
                     f"the weight of {self.rig.shape_names[j]} can't be {edit.weights[j]:g}, "
                     f"allowed are numbers up to {LARGEST_WEIGHT:.0e}"
                 )
-            pose = poses[self.active].with_weights(edit.weights)
+            current = poses[self.active].weights
+            weights = control.keeping_locked(edit.weights, current)
+            self.message = self._locks_in_the_way(before, edit.weights)
+            if self.message and edit.pins is None and np.array_equal(weights, current):
+                raise FacepinError(self.message)
+            pose = poses[self.active].with_weights(weights)
             if edit.pins is None:
-                pose = snapped(self.rig, pose)
+                pose = snapped(self.rig, pose, control)
                 poses = [other.with_pins(pose.pins) for other in poses]
             poses[self.active] = pose
             return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
@@ -237,6 +274,14 @@ class Session:
             replace(pane, pose=pose, began=None) if placed else pane.by_hand(pose)
             for pane, pose in zip(panes, poses, strict=True)
         )
+
+    def _locks_in_the_way(self, work: Work, weights: Floats) -> str:
+        """Return which locks keep the active pane from these weights (k,), as a sentence; "" for none."""
+        broken = np.flatnonzero(work.control.breaks_lock(weights, work.panes[self.active].pose.weights))
+        if not len(broken):
+            return ""
+        names = listed([self.rig.shape_names[j] for j in broken])
+        return f"{names} {'is' if len(broken) == 1 else 'are'} locked"
 
     def _dragged(self, panes: tuple[Pane, ...], poses: Sequence[Pose]) -> tuple[Pane, ...]:
         """Return the panes solved for new pins; where one of several solvers fails, its weights stay.
@@ -274,10 +319,14 @@ class Session:
 
     def _solve(self, at: int, pane: Pane, start: Pose) -> Pane:
         """Return a pane with the weights of `start` carried towards its pins."""
-        solver = self._solvers.get((at, pane.choice))
+        control = self._history.current.control
+        solver = self._solvers.get((at, pane.choice, control))
         if solver is None:
             if len(self._solvers) >= 4 * MOST_PANES:  # a setting that is being slid leaves a trail
                 self._solvers.clear()
-            solver = self._solvers[at, pane.choice] = PinSolver(self.rig, pane.choice)
-        solved = solver.solve(start.pins, pane.hand if pane.choice.kind.afresh else start.weights)
+            solver = self._solvers[at, pane.choice, control] = PinSolver(self.rig, pane.choice, control)
+        weights = pane.hand if pane.choice.kind.afresh else start.weights
+        if control.held.any():  # a shape may have been locked after the weights that the solver starts from
+            weights = np.where(control.held, pane.pose.weights, weights)
+        solved = solver.solve(start.pins, weights)
         return replace(pane, pose=start.with_weights(solved.weights), solved=solved)

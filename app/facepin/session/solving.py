@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from facepin.core.arrays import Floats, frozen
+from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
-from facepin.core.geodesic import shape_locality
-from facepin.core.pose import Pin, Pose, as_vector, pin_displacement, pin_rows
+from facepin.core.pose import Pin, Pose, as_vector, pin_displacement
 from facepin.core.rig import Rig
+from facepin.session.problem import Problem, make_problem
 from facepin.solvers import SOLVERS
-from facepin.solvers.interface import PinSystem, Solve, SolverKind
+from facepin.solvers.interface import Solve, SolverKind
 
 
 @dataclass(frozen=True)
@@ -57,12 +58,14 @@ class Solved:
 class PinSolver:
     """Solves the pins of one pane; keeps what depends on the pins' places only, for all frames of a drag."""
 
-    def __init__(self, rig: Rig, choice: SolverChoice) -> None:
+    def __init__(self, rig: Rig, choice: SolverChoice, control: ShapeControl | None = None) -> None:
+        """Use the shapes that `control` leaves free, within its limits; the rig's own when left out."""
         self.choice = choice
         self._rig = rig
-        self._prepared_for: object = None
-        self._rows = np.zeros((0, rig.shape_count))
-        self._solve: Solve | None = None
+        self._control = ShapeControl.of(rig) if control is None else control
+        self._places: object = None
+        self._start: Floats | None = None
+        self._prepared: tuple[Problem, Solve] | None = None
 
     def solve(self, pins: tuple[Pin, ...], start: Floats) -> Solved:
         """Return weights (k,) that carry the pins towards their goals from the weights `start` (k,).
@@ -74,66 +77,56 @@ class PinSolver:
         """
         displacement = pin_displacement(self._rig, pins)
         try:
-            solve = self._prepare(pins)
+            problem, solve = self._prepare(pins, start)
             began = perf_counter()
-            solution = solve(displacement, start)
+            solution = solve(problem.displacement(displacement), problem.taken(start))
         except np.linalg.LinAlgError as error:
             raise FacepinError(
                 f"{self.choice.kind.title} found no solution for these pins: {error}"
             ) from error
-        weights = solution.weights
-        if not np.isfinite(weights).all():
+        if not np.isfinite(solution.weights).all():
             raise FacepinError(
                 f"{self.choice.kind.title} gave weights that are not finite; the last pose is kept"
             )
+        weights = problem.given_back(solution.weights, start)
         if self.choice.keep_limits and not self.choice.kind.obeys_limits:
-            # A weight that began outside its limits may stay there: nothing is clipped silently.
-            low, high = np.minimum(self._rig.limits[:, 0], start), np.maximum(self._rig.limits[:, 1], start)
-            weights = np.clip(weights, low, high)
+            weights = self._control.clipped(weights, start)
         seconds = perf_counter() - began
-        miss = self._pin_error(pins, displacement, weights)
-        return Solved(frozen(weights, np.float64), miss, seconds, solution.notes)
+        missing = problem.rows @ self._control.heard(weights) - displacement
+        return Solved(frozen(weights, np.float64), _mean_length(pins, missing), seconds, solution.notes)
 
-    def _prepare(self, pins: tuple[Pin, ...]) -> Solve:
+    def _prepare(self, pins: tuple[Pin, ...], start: Floats) -> tuple[Problem, Solve]:
         """Return the solver for pins at these places; goals may differ from call to call."""
         places = tuple(
             (pin.vertex, pin.freedom, pin.axes if pin.freedom == "screen" else None, pin.stiffness)
             for pin in pins
         )
-        if self._solve is None or places != self._prepared_for:
-            rig = self._rig
-            self._rows = pin_rows(rig, pins)
-            system = PinSystem(
-                self._rows,
-                rig.limits,
-                rig.scale,
-                rig.largest_moves,
-                self._locality([pin.vertex for pin in pins]),
-            )
-            self._solve = self.choice.kind.prepare(system, self.choice.settings)
-            self._prepared_for = places
-        return self._solve
-
-    def _locality(self, vertices: list[int]) -> Floats | None:
-        """Return the share of each shape near these vertices, for a solver told to prefer what is near."""
-        radius = getattr(self.choice.settings, "radius", 0.0)
-        return shape_locality(self._rig, vertices, radius / 100 * self._rig.height) if radius > 0 else None
-
-    def _pin_error(self, pins: tuple[Pin, ...], displacement: Floats, weights: Floats) -> float:
-        if not pins:
-            return 0.0
-        miss = (self._rows @ weights - displacement) ** 2
-        at = np.cumsum([0] + [2 if pin.freedom == "screen" else 3 for pin in pins[:-1]])
-        stiffness = np.array([pin.stiffness for pin in pins])
-        return float(np.sqrt(np.add.reduceat(miss, at) / stiffness).mean())
+        known = self._prepared is not None and places == self._places
+        if known and self._control.held.any():
+            known = self._start is not None and np.array_equal(start, self._start)
+        if self._prepared is None or not known:
+            radius = getattr(self.choice.settings, "radius", 0.0)
+            problem = make_problem(self._rig, self._control, pins, start, radius)
+            self._prepared = problem, self.choice.kind.prepare(problem.system, self.choice.settings)
+            self._places, self._start = places, start
+        return self._prepared
 
 
-def snapped(rig: Rig, pose: Pose) -> Pose:
+def _mean_length(pins: tuple[Pin, ...], missing: Floats) -> float:
+    """Return the mean length of what pins miss, (r,) in the scale of their rows; 0 without pins."""
+    if not pins:
+        return 0.0
+    at = np.cumsum([0] + [2 if pin.freedom == "screen" else 3 for pin in pins[:-1]])
+    stiffness = np.array([pin.stiffness for pin in pins])
+    return float(np.sqrt(np.add.reduceat(missing**2, at) / stiffness).mean())
+
+
+def snapped(rig: Rig, pose: Pose, control: ShapeControl) -> Pose:
     """Return the pose with every goal moved to where its vertex is now."""
     if not pose.pins:
         return pose
     vertices = [pin.vertex for pin in pose.pins]
-    places = (rig.rows_at(vertices) @ pose.weights).reshape(-1, 3) + rig.neutral[vertices]
+    places = (rig.rows_at(vertices) @ control.heard(pose.weights)).reshape(-1, 3) + rig.neutral[vertices]
     return pose.with_pins(
         tuple(
             Pin(pin.vertex, as_vector(place), pin.freedom, pin.axes, pin.stiffness)

@@ -5,6 +5,7 @@ from enum import Enum
 from pathlib import Path
 
 from facepin.core.camera import View
+from facepin.core.control import ShapeControl
 from facepin.core.events import KeyPressed
 from facepin.core.pose import Freedom
 from facepin.session.solving import SolverChoice
@@ -135,6 +136,20 @@ class SetPin:
     final: bool = True
 
 
+@dataclass(frozen=True, eq=False)
+class SetControl:
+    """Lock, mute or limit shapes."""
+
+    label: str
+    control: ShapeControl
+    final: bool = True
+
+
+@dataclass(frozen=True)
+class CancelEdit:
+    """Give up what a panel was changing: everything is as it was before."""
+
+
 @dataclass(frozen=True)
 class CancelLoading:
     """Give up opening a file."""
@@ -150,5 +165,7 @@ Request = (
     | KeepPane
     | RandomReference
     | SetPin
+    | SetControl
+    | CancelEdit
     | CancelLoading
 )

@@ -120,10 +120,10 @@ def test_locality_is_the_share_of_squared_motion_under_the_kernel() -> None:
     kernel = np.maximum(1 - by_heap(rig, vertices, radius) / radius, 0)
     squares = [(rig.deltas[:, [j]].toarray().reshape(-1, 3) ** 2).sum(axis=1) for j in range(5)]
     expected = [kernel @ each / each.sum() for each in squares]
-    found = shape_locality(rig, vertices, radius)
+    found = shape_locality(rig, vertices, radius, np.zeros(5))
     np.testing.assert_allclose(found, expected, rtol=1e-5)
     assert (found >= 0).all() and found.max() < 1
-    np.testing.assert_allclose(shape_locality(rig, list(range(81)), radius), 1.0, rtol=1e-5)
+    np.testing.assert_allclose(shape_locality(rig, list(range(81)), radius, np.zeros(5)), 1.0, rtol=1e-5)
 
 
 def test_shapes_that_move_nothing_are_nowhere() -> None:
@@ -131,14 +131,14 @@ def test_shapes_that_move_nothing_are_nowhere() -> None:
     still = build_rig(
         "still", rig.neutral, rig.corners, rig.face_sizes, [("a", rig.neutral * 0), ("b", rig.neutral * 0)]
     )
-    np.testing.assert_array_equal(shape_locality(still, [3], 1.0), [0, 0])
+    np.testing.assert_array_equal(shape_locality(still, [3], 1.0, np.zeros(2)), [0, 0])
 
 
 def test_a_radius_reaches_the_solver_in_per_cent_of_the_height() -> None:
     rig = sheet(shapes=5)
     pins = (Pin(30, (0.3, 0.2, 0.1)), Pin(50, (0.1, -0.2, 0.0)))
     rows, displacement = pin_rows(rig, pins), pin_displacement(rig, pins)
-    shares = shape_locality(rig, [30, 50], 0.4 * rig.height)
+    shares = shape_locality(rig, [30, 50], 0.4 * rig.height, np.zeros(5))
     g = shares * (displacement @ rows)
     step = (displacement @ rows @ g) / np.sum((rows @ g) ** 2)
     solved = PinSolver(rig, choose("transpose", TransposeSettings(radius=40.0))).solve(pins, np.zeros(5))

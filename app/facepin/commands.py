@@ -51,6 +51,7 @@ def _info(options: Namespace) -> None:
         "faces": len(rig.face_sizes),
         "triangles": len(rig.triangles),
         "shapes": list(rig.shape_names),
+        "combinations": len(rig.combinations),
         "parts": [part.name for part in rig.parts],
         "warnings": list(rig.warnings),
     }
@@ -60,10 +61,12 @@ def _info(options: Namespace) -> None:
     for name in ("name", "vertices", "edges", "faces", "triangles"):
         value = facts[name]
         print(f"{name:10} {value if isinstance(value, str) else format(value, ',')}")
-    share = deltas.nnz / max(3 * rig.vertex_count * rig.shape_count, 1)
+    share = deltas.nnz / max(deltas.shape[0] * deltas.shape[1], 1)
     print(f"{'memory':10} {memory / 1e6:.1f} MB, {share:.0%} of all deltas are not zero")
     print(f"{'height':10} {rig.height:.4g} (along y, in the file's unit)")
     print(f"{'shapes':10} {rig.shape_count}: {', '.join(rig.shape_names)}")
+    if len(rig.combinations):
+        print(f"{'combined':10} {len(rig.combinations)}: {', '.join(rig.combination_names)}")
     print(f"{'parts':10} {len(rig.parts)}: {', '.join(part.name for part in rig.parts)}")
     for line in rig.warnings:
         print(f"{'warning':10} {line}")

@@ -33,6 +33,8 @@ class ShapeControl:
     """(k,) bool, shapes that keep their weight but don't move the face."""
     solo: Flags
     """(k,) bool, while any is set the face is moved by these shapes alone."""
+    ties: tuple[tuple[int, int], ...] = ()
+    """Pairs (a, b) of shapes: the weight of a should be at most that of b."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "limits", frozen(self.limits, np.float64))
@@ -46,9 +48,9 @@ class ShapeControl:
 
     @staticmethod
     def of(rig: Rig) -> "ShapeControl":
-        """Return the rig's own limits, and nothing restrained."""
+        """Return the rig's own limits and ties, and nothing restrained."""
         nothing = np.zeros(rig.shape_count, np.bool_)
-        return ShapeControl(rig.limits, nothing, nothing, nothing)
+        return ShapeControl(rig.limits, nothing, nothing, nothing, rig.ties)
 
     @cached_property
     def silent(self) -> Flags:
@@ -87,11 +89,36 @@ class ShapeControl:
         return broken
 
     def limits_at(self, weights: Floats) -> Floats:
-        """Return the limits (k, 2) that hold for a pose (k,)."""
-        return self.limits
+        """Return the limits (k, 2) that hold in a pose (k,): a tied shape goes as far as the other one does.
+
+        The array `limits` itself without ties.
+        """
+        if not self.ties:
+            return self.limits
+        limits = self.limits.copy()
+        for tied, other in self.ties:
+            limits[tied, 1] = min(limits[tied, 1], max(float(weights[other]), limits[tied, 0]))
+        return limits
+
+    def limits_beside_locks(self, weights: Floats) -> Floats:
+        """Return the limits (k, 2) of what is free beside tied shapes that are held at their weights (k,).
+
+        A tie between two free shapes does not show in them.
+        """
+        limits = self.limits.copy()
+        for tied, other in self.ties:
+            if self.held[other]:
+                limits[tied, 1] = min(limits[tied, 1], max(float(weights[other]), limits[tied, 0]))
+            elif self.held[tied]:
+                limits[other, 0] = max(limits[other, 0], min(float(weights[tied]), limits[other, 1]))
+        return limits
 
     def clipped(self, weights: Floats, start: Floats) -> Floats:
-        """Return weights (k,) within the limits; one that was outside at the `start` (k,) may stay there."""
-        low, high = self.limits.T
+        """Return weights (k,) within limits and ties; what was beyond at the `start` (k,) may stay there."""
+        low, high = self.limits_beside_locks(start).T
         clipped: Floats = np.clip(weights, np.minimum(low, start), np.maximum(high, start))
+        for tied, other in self.ties:
+            if not self.held[tied] and not self.held[other]:
+                most = clipped[other] + max(float(start[tied] - start[other]), 0.0)
+                clipped[tied] = min(clipped[tied], max(most, min(low[tied], start[tied])))
         return clipped

@@ -14,15 +14,15 @@ ROUNDING = 2.0**-24
 
 
 class Deformer:
-    """Evaluates f0 + B w frame after frame; one per pane.
+    """Evaluates f0 + B a frame after frame, where a are the amounts of a pose; one per pane.
 
-    During a drag the weights run through a small space: a linear solver that follows one pin turns three
-    numbers (where the goal is) into k weights, so all weight changes are sums of three directions q.  A
-    deformer remembers the directions it has met, orthonormal, and their images B q.  When a change lies among
-    them, the positions are a sum of a few images, whatever the number of shapes; otherwise the new direction
-    is multiplied out and remembered.  When too many are known, or when a gesture changes far fewer weights
-    than they do, it starts over from where it is: what does not move then stays put to the last bit, and its
-    normals need no work.
+    During a drag the weights run through a small space: a linear solver that follows one pin turns two or
+    three numbers (where the goal is) into k weights, so all weight changes are sums of as many directions q,
+    and products of weights add a few more.  A deformer remembers the directions it has met, orthonormal, and
+    their images B q.  When a change lies among them, the positions are a sum of a few images, whatever the
+    number of shapes; otherwise the new direction is multiplied out and remembered.  When too many are known,
+    or when a gesture changes far fewer amounts than they do, it starts over from where it is: what does not
+    move then stays put to the last bit, and its normals need no work.
 
     Nothing is accumulated from frame to frame, so nothing drifts: every answer equals `Rig.evaluate` up to
     float32 rounding, whatever was asked before.
@@ -31,13 +31,14 @@ class Deformer:
     def __init__(self, rig: Rig) -> None:
         self._rig = rig
         self._extent = float(np.abs(rig.neutral).max())
-        self._directions = np.zeros((MOST_DIRECTIONS, rig.shape_count))
+        columns = rig.deltas.shape[1]
+        self._directions = np.zeros((MOST_DIRECTIONS, columns))
         # Rows: positions at the base weights, then the image of each direction, and how far each can reach.
         self._images = np.zeros((1 + MOST_DIRECTIONS, rig.neutral.size), np.float32)
         self._reaches = np.zeros(1 + MOST_DIRECTIONS)
-        self._touched = np.zeros(rig.shape_count, np.bool_)
-        self._restart(np.zeros(rig.shape_count))
-        self._weights = self._base
+        self._touched = np.zeros(columns, np.bool_)
+        self._restart(np.zeros(columns))
+        self._amounts = self._base
         self._positions: Points = rig.neutral
 
     def twin(self) -> "Deformer":
@@ -53,39 +54,40 @@ class Deformer:
             Read-only.  A new array on every call, except that the same weights as in the call before return
             the same array, so that `is` tells whether something moved.
         """
-        if not np.array_equal(weights, self._weights):
-            mix = self._mix_of(weights)
+        amounts = self._rig.amounts(weights)
+        if not np.array_equal(amounts, self._amounts):
+            mix = self._mix_of(amounts)
             positions: Points = np.dot(mix.astype(np.float32), self._images[: len(mix)]).reshape(-1, 3)
             positions.flags.writeable = False
-            self._weights, self._positions = weights.copy(), positions
+            self._amounts, self._positions = amounts.copy(), positions
         return self._positions
 
-    def _mix_of(self, weights: Floats) -> Floats:
+    def _mix_of(self, amounts: Floats) -> Floats:
         """Multiples of the images that make the positions: 1 of the base, then one for each direction."""
-        if 2 * np.count_nonzero(weights != self._weights) < np.count_nonzero(self._touched):
-            return self._restart(weights)
-        change = weights - self._base
+        if 2 * np.count_nonzero(amounts != self._amounts) < np.count_nonzero(self._touched):
+            return self._restart(amounts)
+        change = amounts - self._base
         directions = self._directions[: self._known]
         parts = directions @ change
         rest = change - parts @ directions
-        reach = self._extent + self._reach(weights)
+        reach = self._extent + self._reach(amounts)
         if self._reach(rest) > ROUNDING * reach:
             if self._known == MOST_DIRECTIONS:
-                return self._restart(weights)
+                return self._restart(amounts)
             self._learn(rest)
             parts = self._directions[: self._known] @ change
         mix = np.concatenate([[1.0], parts])
         # After very large weights (an unregularised solver gives thousands) small ones need a new base.
         # Asked this way round, a base that is not a number needs one too.
         if not self._reaches[: len(mix)] @ np.abs(mix) <= CANCELLATION * reach:
-            return self._restart(weights)
+            return self._restart(amounts)
         return mix
 
-    def _restart(self, weights: Floats) -> Floats:
-        """Make these weights the base and forget all directions."""
-        self._base: Floats = weights.copy()
-        self._images[0] = self._rig.evaluate(weights).ravel()
-        self._reaches[0] = self._extent + self._reach(weights)
+    def _restart(self, amounts: Floats) -> Floats:
+        """Make these amounts the base and forget all directions."""
+        self._base: Floats = amounts.copy()
+        self._images[0] = self._rig.neutral.ravel() + self._rig.columns.product(amounts)
+        self._reaches[0] = self._extent + self._reach(amounts)
         self._known = 0
         self._touched[:] = False
         return np.ones(1)
@@ -102,6 +104,6 @@ class Deformer:
         self._images[self._known] = self._rig.columns.product(direction)
         self._reaches[self._known] = self._reach(direction)
 
-    def _reach(self, weights: Floats) -> float:
-        """A bound on how far the weights move any vertex."""
-        return float(self._rig.largest_moves @ np.abs(weights))
+    def _reach(self, amounts: Floats) -> float:
+        """A bound on how far the amounts move any vertex."""
+        return float(self._rig.reaches @ np.abs(amounts))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, hstack
 
 from facepin.core.arrays import Indices, Points, frozen
 from facepin.core.errors import FacepinError
@@ -36,13 +36,15 @@ class DeltaColumns:
     """Shapes that move nothing."""
 
 
-def delta_columns(where: str, shapes: Iterable[tuple[str, Delta]], vertices: int) -> DeltaColumns:
-    """Gather the deltas of `vertices` vertices as columns; `where` begins the messages.
+def delta_columns(
+    where: str, shapes: Iterable[tuple[str, Delta]], vertices: int, kind: str = "shape"
+) -> DeltaColumns:
+    """Gather the deltas of `vertices` vertices as columns; messages begin with `where` and speak of `kind`.
 
     Raises
     ------
     FacepinError
-        For deltas that do not fit or are not finite, and for no shapes or too many.
+        For deltas that do not fit or are not finite, and for too many shapes.
     """
     names: list[str] = []
     rows: list[Indices] = []
@@ -52,9 +54,9 @@ def delta_columns(where: str, shapes: Iterable[tuple[str, Delta]], vertices: int
     seen: dict[tuple[int, int, float], list[int]] = {}
     for j, (raw_name, delta) in enumerate(shapes):
         if j == MOST_SHAPES:
-            raise FacepinError(f"{where}: more than {MOST_SHAPES} shapes")
+            raise FacepinError(f"{where}: more than {MOST_SHAPES} {kind}s")
         names.append(raw_name)
-        column_rows, column = _column(delta, vertices, f"{where}: shape {clean_name(raw_name) or j}")
+        column_rows, column = _column(delta, vertices, f"{where}: {kind} {clean_name(raw_name) or j}")
         rows.append(column_rows)
         moves.append(column)
         if not len(column):
@@ -67,20 +69,32 @@ def delta_columns(where: str, shapes: Iterable[tuple[str, Delta]], vertices: int
                 break
         else:
             twins.append(j)
-    if not names:
-        raise FacepinError(f"{where}: no shapes, only a neutral; allowed are one or more")
-
     starts = np.zeros(len(names) + 1, np.int64)
     np.cumsum([len(column) for column in moves], out=starts[1:])
     if starts[-1] <= np.iinfo(np.int32).max:
         starts = starts.astype(np.int32)
     matrix = csc_array(
-        (np.concatenate(moves), np.concatenate(rows), starts), shape=(3 * vertices, len(names)), copy=False
+        (
+            np.concatenate([np.zeros(0, np.float32), *moves]),
+            np.concatenate([np.zeros(0, np.int32), *rows]),
+            starts,
+        ),
+        shape=(3 * vertices, len(names)),
+        copy=False,
     )
+    return DeltaColumns(names, _read_only(matrix), equal, still)
+
+
+def side_by_side(left: csc_array, right: csc_array) -> csc_array:
+    """Return the columns of two matrices as one, read-only; `left` itself where there is nothing to add."""
+    return _read_only(csc_array(hstack([left, right], "csc"))) if right.shape[1] else left
+
+
+def _read_only(matrix: csc_array) -> csc_array:
     matrix.has_sorted_indices = True
     for array in (matrix.data, matrix.indices, matrix.indptr):
         array.flags.writeable = False
-    return DeltaColumns(names, matrix, equal, still)
+    return matrix
 
 
 def _column(delta: Delta, vertices: int, where: str) -> tuple[Indices, Points]:

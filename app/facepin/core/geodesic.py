@@ -59,7 +59,7 @@ def _edges(rig: Rig, weld: NDArray[np.int32], points: Floats, near: NDArray[np.b
     return csr_array((lengths, end, rows.astype(np.int32)), shape=(len(points), len(points)))
 
 
-def shape_locality(rig: Rig, vertices: Sequence[int], radius: float) -> Floats:
+def shape_locality(rig: Rig, vertices: Sequence[int], radius: float, weights: Floats) -> Floats:
     """Return how much of each shape happens near some vertices, (k,) shares 0..1.
 
     The share of its squared motion that remains when vertex i counts kᵢ = 1 - dᵢ / radius, where dᵢ is its
@@ -72,16 +72,18 @@ def shape_locality(rig: Rig, vertices: Sequence[int], radius: float) -> Floats:
     vertices : p vertex indices
     radius : float
         A length > 0, in the rig's unit.
+    weights : (k,)
+        The pose; what a shape does at it differs on rigs with combinations only.
     """
     kernel = 1.0 - np.minimum(geodesic_distances(rig, vertices, radius) / radius, 1.0)
     inside = np.flatnonzero(kernel)
-    deltas = rig.deltas
+    deltas = rig.slope_deltas(weights)
     total = np.zeros(rig.shape_count)
     filled = np.flatnonzero(np.diff(deltas.indptr))
     if not len(filled):
         return total
     squares = deltas.data * deltas.data
     total[filled] = np.add.reduceat(squares, deltas.indptr[filled], dtype=np.float64)
-    rows = rig.rows_at(inside.tolist())
+    rows = rig.slopes(rig.rows_at(inside.tolist()), weights)
     near = np.repeat(kernel[inside], 3) @ (rows * rows)
     return np.divide(near, total, out=np.zeros_like(total), where=total > 0)

@@ -60,7 +60,10 @@ def as_vector(point: Floats) -> Vector:
 
 
 def pin_rows(rig: Rig, pins: tuple[Pin, ...]) -> Floats:
-    """Pin rows J, (r, k) float64: three for a space pin, two for a screen pin, times sqrt(stiffness)."""
+    """Pin rows, (r, k + c) float64: three for a space pin, two for a screen pin, times sqrt(stiffness).
+
+    They are the paper's J on a rig without combinations; on others `Rig.slopes` makes J of them.
+    """
     space = rig.rows_at([pin.vertex for pin in pins])
     return _project(space, pins)
 

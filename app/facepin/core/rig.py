@@ -1,14 +1,14 @@
 """The rig: a neutral face and the deltas of its shapes, as one immutable value."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from scipy.sparse import csc_array
 
-from facepin.core.arrays import Floats, Indices, Points
+from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.columns import Columns
 
 
@@ -29,6 +29,9 @@ class Part:
 class Rig:
     """A blendshape face: f = neutral + B w (Eq. 1 and 2 of the paper in delta form).
 
+    Combinations add what two shapes do together: f = neutral + B w + Σ wₐ w_b c_ab.  Their deltas c_ab are
+    further columns beside B, and `amounts` says how much of each column a pose has.
+
     Build one with `facepin.core.rig_builder.build_rig`, which checks everything stated here.
     """
 
@@ -36,8 +39,9 @@ class Rig:
     neutral: Points
     """(n, 3) float32, rest positions f0."""
     deltas: csc_array
-    """(3n, k) float32, the paper's B: column j is shape j minus neutral, row 3 v + c its coordinate c at
-    vertex v.  Indices sorted, exact zeros dropped."""
+    """(3n, k + c) float32.  The first k columns are the paper's B: column j is shape j minus neutral, row
+    3 v + c its coordinate c at vertex v.  Then one column for each combination.  Indices sorted, exact zeros
+    dropped."""
     shape_names: tuple[str, ...]
     """k names, unique and printable."""
     corners: Indices
@@ -52,6 +56,10 @@ class Rig:
     """(k, 2) lowest and highest weight of each shape, 0..1 unless the file says otherwise."""
     rest_weights: Floats
     """(k,) weights the file itself asks for, mostly zeros."""
+    combinations: Indices = field(default_factory=lambda: frozen(np.zeros((0, 2)), np.int32))
+    """(c, 2) int32, the two shapes a and b, a < b, of each combination."""
+    ties: tuple[tuple[int, int], ...] = ()
+    """Pairs (a, b) of shapes: a is made to be used with at most as much of it as of b."""
     colours: Points | None = None
     """(n, 3) float32 sRGB 0..1 vertex colours, or None."""
     warnings: tuple[str, ...] = ()
@@ -68,6 +76,11 @@ class Rig:
         """Number of shapes k."""
         return len(self.shape_names)
 
+    @property
+    def combination_names(self) -> tuple[str, ...]:
+        """c names, "a*b" for the combination of a and b."""
+        return tuple(f"{self.shape_names[a]}*{self.shape_names[b]}" for a, b in self.combinations.tolist())
+
     @cached_property
     def height(self) -> float:
         """Extent of the neutral along y (the face height that percentages refer to), never zero."""
@@ -80,21 +93,63 @@ class Rig:
         return Columns(self.deltas)
 
     @cached_property
+    def reaches(self) -> Floats:
+        """(k + c,) length of the largest vertex move of each column at amount 1."""
+        return self.columns.largest_moves()
+
+    @property
     def largest_moves(self) -> Floats:
         """(k,) length of the largest vertex move of each shape at weight 1."""
-        return self.columns.largest_moves()
+        return self.reaches[: self.shape_count]
 
     @cached_property
     def scale(self) -> float:
         """Mean over shapes of the squared largest vertex move: the unit of relative solver settings."""
         return float(np.mean(self.largest_moves**2)) if self.shape_count else 0.0
 
+    def amounts(self, weights: Floats) -> Floats:
+        """How much of each column of `deltas` a pose has, (k + c,): its weights (k,), then their products.
+
+        The weights themselves on a rig without combinations.
+        """
+        if not len(self.combinations):
+            return weights
+        return np.concatenate([weights, weights[self.combinations].prod(axis=1)])
+
+    def slopes(self, rows: Floats, weights: Floats) -> Floats:
+        """How rows of the face change with each weight at a pose (k,), (r, k): the J that solvers use.
+
+        `rows` (r, k + c) are rows of `deltas`, or sums of such.  On a rig without combinations they are the
+        answer, for any pose; else it is column a plus w_b times column ab for every b.
+        """
+        if not len(self.combinations):
+            return rows
+        slopes: Floats = rows @ self._amount_slopes(weights)
+        return slopes
+
+    def slope_deltas(self, weights: Floats) -> csc_array:
+        """How all vertices move with each weight at a pose (k,), (3n, k): the `slopes` of the whole face."""
+        if not len(self.combinations):
+            return self.deltas
+        return csc_array(self.deltas @ csc_array(self._amount_slopes(weights).astype(np.float32)))
+
+    def _amount_slopes(self, weights: Floats) -> Floats:
+        """How each amount changes with each weight at a pose, (k + c, k)."""
+        count, (first, second) = self.shape_count, self.combinations.T
+        slopes = np.eye(count + len(first), count)
+        at = np.arange(count, len(slopes))
+        slopes[at, first], slopes[at, second] = weights[second], weights[first]
+        return slopes
+
     def evaluate(self, weights: Floats) -> Points:
-        """Posed positions f0 + B w, (n, 3) float32, computed from scratch; drags use `deform.Deformer`."""
-        moved = self.columns.product(np.asarray(weights, np.float64))
+        """Posed positions (n, 3) float32, computed from scratch; drags use `deform.Deformer`."""
+        moved = self.columns.product(self.amounts(np.asarray(weights, np.float64)))
         positions: Points = self.neutral + moved.reshape(-1, 3)
         return positions
 
     def rows_at(self, vertices: Sequence[int]) -> Floats:
-        """Rows of B at `vertices`, (3p, k) float64: x, y, z of the first vertex, then of the next (Eq. 7)."""
+        """Rows of `deltas` at `vertices`, (3p, k + c) float64: x, y, z of the first vertex, then of the next.
+
+        Times `amounts` they are the moves of these vertices; the first k columns are the paper's (Eq. 7).
+        """
         return self.columns.rows((3 * np.asarray(vertices, np.intp)[:, None] + np.arange(3)).ravel())

@@ -1,6 +1,6 @@
 """The one door to a `Rig`: every reader and generator ends here, and what a rig promises is checked here."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,11 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
-from facepin.core.delta_columns import Delta, checked_points, delta_columns
+from facepin.core.delta_columns import Delta, checked_points, delta_columns, side_by_side
 from facepin.core.errors import FacepinError
 from facepin.core.names import clean_name, clean_names, listed
 from facepin.core.rig import Part, Rig
 
+Pair = tuple[int, int]
+
+TIED = (("mouthClose", "jawOpen"),)
+"""ARKit's mouthClose is the way of the lips back from an open jaw: without it they cut through each other."""
 LARGEST_WEIGHT = 1e6
 MOST_WARNINGS = 40
 
@@ -35,6 +39,7 @@ def build_rig(
     face_sizes: ArrayLike,
     shapes: Iterable[tuple[str, Delta]],
     *,
+    combinations: Iterable[tuple[Pair, Delta]] = (),
     parts: Sequence[PartLook] = (),
     face_parts: ArrayLike | None = None,
     colours: ArrayLike | None = None,
@@ -55,6 +60,9 @@ def build_rig(
         Corners of each face.
     shapes : k pairs of name and delta
         See `Delta`.  Taken one by one, so an iterator that makes each delta when asked keeps memory low.
+    combinations : c pairs of (a, b) and delta
+        Indices of two different shapes, and what is added by the product of their weights.  Taken after the
+        shapes, one by one.
     parts, face_parts : names and looks of the parts, and (m,) the part of each face
         Faces are regrouped by part (in the order of `parts`, stable within one); vertices keep their order.
         `face_parts` may be left out for a single part.
@@ -68,7 +76,7 @@ def build_rig(
     ------
     FacepinError
         For wrong array shapes, numbers that are not finite or absurdly large, indices out of range, no faces,
-        no shapes.
+        no shapes, combinations of shapes that are not there.
     """
     name = clean_name(name) or "face"
     where = source.name if source is not None and source.name else name
@@ -85,6 +93,8 @@ def build_rig(
     corner_array, sizes, part_of_face = _grouped(corner_array, sizes, part_of_face)
 
     columns = delta_columns(where, shapes, len(positions))
+    if not columns.names:
+        raise FacepinError(f"{where}: no shapes, only a neutral; allowed are one or more")
     shape_names, remarks = clean_names(columns.names)
     if columns.equal:
         pairs = [f"{shape_names[i]} and {shape_names[j]}" for i, j in columns.equal]
@@ -92,6 +102,13 @@ def build_rig(
     if columns.still:
         remarks.append(f"shapes that move nothing: {listed([shape_names[j] for j in columns.still])}")
     count = len(shape_names)
+    combined: list[Pair] = []
+    products = delta_columns(
+        where, _named(where, combinations, shape_names, combined), len(positions), "combination"
+    )
+    if products.still:
+        idle = listed([products.names[i] for i in products.still])
+        remarks.append(f"combinations that move nothing: {idle}")
     rest = frozen(_numbers(rest_weights, (count,), 0.0, f"{where}: rest weights"), np.float64)
     allowed = _numbers(limits, (count, 2), (0.0, 1.0), f"{where}: limits")
     if (allowed[:, 0] > allowed[:, 1]).any():
@@ -104,7 +121,7 @@ def build_rig(
     return Rig(
         name=name,
         neutral=positions,
-        deltas=columns.matrix,
+        deltas=side_by_side(columns.matrix, products.matrix),
         shape_names=tuple(shape_names),
         corners=frozen(corner_array, np.int32),
         face_sizes=frozen(sizes, np.int32),
@@ -112,10 +129,35 @@ def build_rig(
         parts=_parts(looks, part_of_face, sizes),
         limits=frozen(allowed, np.float64),
         rest_weights=rest,
+        ties=_ties(shape_names),
+        combinations=frozen(np.reshape(combined, (-1, 2)), np.int32),
         colours=None if colours is None else _colours(where, colours, len(positions)),
         warnings=_few([*warnings, *remarks]),
         source=source,
     )
+
+
+def _named(
+    where: str, combinations: Iterable[tuple[Pair, Delta]], names: Sequence[str], pairs: list[Pair]
+) -> Iterator[tuple[str, Delta]]:
+    """Give each combination the name of its shapes; gather the pairs of these in `pairs`, checked."""
+    for at, ((a, b), delta) in enumerate(combinations):
+        if a == b or not (0 <= a < len(names) and 0 <= b < len(names)):
+            raise FacepinError(
+                f"{where}: combination {at} is of the shapes {a} and {b}, "
+                f"allowed are two different ones of 0 to {len(names) - 1}"
+            )
+        pairs.append((min(a, b), max(a, b)))
+        yield "*".join(names[j] for j in pairs[-1]), delta
+
+
+def _ties(names: Sequence[str]) -> tuple[Pair, ...]:
+    """Return the ties (see `Rig`) of shapes whose names tell what they are made for."""
+    places = dict[str, int]()
+    for j, name in enumerate(names):
+        plain = name.rpartition(".")[2]
+        places.setdefault(plain[:1].lower() + plain[1:], j)
+    return tuple((places[a], places[b]) for a, b in TIED if a in places and b in places)
 
 
 def fan_triangles(corners: Indices, face_sizes: Indices) -> Indices:

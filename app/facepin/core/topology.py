@@ -87,8 +87,8 @@ def weld_map(rig: Rig) -> Indices:
     shared = np.flatnonzero(uses[place] > 1)
     if not len(shared):
         return result
-    # One random pose stands for all shapes: equal rows of B give equal sums, bit for bit.
-    weights = np.random.default_rng(1).uniform(1, 2, rig.shape_count).astype(np.float32)
+    # One random mixture stands for all columns: equal rows give equal sums, bit for bit.
+    weights = np.random.default_rng(1).uniform(1, 2, rig.deltas.shape[1]).astype(np.float32)
     moved = (rig.deltas @ weights).reshape(-1, 3)[shared]
     keys = np.stack([_mixed(rig.neutral[shared]), _mixed(moved)], axis=1)
     _, first, group = np.unique(keys, axis=0, return_index=True, return_inverse=True)

@@ -136,7 +136,7 @@ def animate(rig: Rig, task: Task, choice: SolverChoice, freedom: Freedom) -> Out
     for vertex, tremor in zip(task.vertices, task.tremor, strict=True):
         rows, rest = rig.rows_at([vertex]), rig.neutral[vertex].astype(np.float64)
         start = by_hand if choice.kind.afresh else weights
-        at = rows @ weights + rest
+        at = rows @ rig.amounts(weights) + rest
         aim, pin = at.copy(), Pin(vertex, as_vector(at), freedom, FRONT_AXES)
         for shake in tremor:
             aim[:2] = np.clip(aim[:2] + PULL * (task.wanted[vertex, :2] - at[:2]), lowest, highest)
@@ -146,7 +146,7 @@ def animate(rig: Rig, task: Task, choice: SolverChoice, freedom: Freedom) -> Out
                 solved = solver.solve((*held, pin), start)
                 weights = solved.weights
                 times.append(solved.seconds)
-            at = rows @ weights + rest
+            at = rows @ rig.amounts(weights) + rest
             path.append(weights)
         held = (*held, pin)
     return _measure(rig, task, np.array(path), times)

@@ -188,9 +188,9 @@ def hybrid_pins(studio: Studio) -> Remake:
                 )
             )
         images.append((write_sheet(folder / "comparison.png", panes, origin), "Hybrid, by number of pins"))
+    rows = rig.slopes(rig.rows_at([pin.vertex for pin in pins]), np.zeros(rig.shape_count))
     smallest = [
-        float(np.linalg.svd(rig.rows_at([pin.vertex for pin in pins[:count]]), compute_uv=False)[-1])
-        for count in range(1, len(pins) + 1)
+        float(np.linalg.svd(rows[: 3 * count], compute_uv=False)[-1]) for count in range(1, len(pins) + 1)
     ]
     _, chart = write_chart(folder, "gamma", gamma_chart(smallest, origin))
     images.append((chart, "The smallest singular value of the pin rows, and γ, by number of pins"))

@@ -1,6 +1,6 @@
 """Rigs from .glb, .gltf and .vrm files: morph targets become shapes, node transforms are baked in."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,8 +17,8 @@ from facepin.files.gltf_accessors import accessor_count, read_delta, read_floats
 from facepin.files.gltf_document import COMPRESSIONS, GltfDocument, read_document, refuse_compression
 from facepin.files.gltf_materials import linear_to_srgb, material_factor, part_look
 from facepin.files.gltf_scene import Placed, placed_meshes
-from facepin.files.gltf_targets import ShapeKey, rest_weights, shape_keys
-from facepin.files.options import ReadOptions
+from facepin.files.gltf_targets import ShapeKey, combined_targets, rest_weights, shape_keys
+from facepin.files.options import Progress, ReadOptions, no_progress
 
 TRIANGLES, STRIP, FAN = 4, 5, 6
 
@@ -46,8 +46,11 @@ class Assembly:
     corners: int = 0
     pieces: int = 0
     shapes: dict[ShapeKey, list[tuple[Block, int]]] = field(default_factory=dict)
-    """Blocks that a shape moves, and their delta accessors."""
+    """Blocks that a shape or combination moves, and their delta accessors."""
+    combined: dict[ShapeKey, tuple[ShapeKey, ShapeKey]] = field(default_factory=dict)
+    """Which of them are combinations, and of which shapes."""
     rest: dict[ShapeKey, float] = field(default_factory=dict)
+    """Weights that the file asks for; those of combinations count for nothing."""
     warnings: list[str] = field(default_factory=list)
 
     def grow(self, vertices: int, corners: int, pieces: int) -> None:
@@ -87,16 +90,29 @@ def read_gltf(path: Path, options: ReadOptions) -> Rig:
         gathered.warnings.append("skins are ignored: the face stays as it is at rest, bones do not move it")
 
     triangles = np.concatenate(gathered.triangles)
+    keys = [key for key in gathered.shapes if key not in gathered.combined]
+    places = {key: j for j, key in enumerate(keys)}
     return build_rig(
         path.stem,
         np.concatenate(gathered.positions),
         triangles.ravel(),
         np.full(len(triangles), 3, np.int32),
-        _shapes(gathered, options),
+        (
+            (key[0] if isinstance(key[0], str) else "", delta)
+            for key, delta in zip(keys, _deltas(gathered, keys, options.progress), strict=True)
+        ),
+        combinations=(
+            ((places[a], places[b]), delta)
+            for (a, b), delta in zip(
+                gathered.combined.values(),
+                _deltas(gathered, list(gathered.combined), no_progress),
+                strict=True,
+            )
+        ),
         parts=gathered.parts,
         face_parts=np.repeat(np.arange(len(gathered.parts)), [len(run) for run in gathered.triangles]),
         colours=_colours(gathered),
-        rest_weights=np.array(list(gathered.rest.values())),
+        rest_weights=np.array([gathered.rest[key] for key in places]),
         warnings=gathered.warnings,
         source=path,
     )
@@ -113,6 +129,7 @@ def _add_mesh(gathered: Assembly, place: Placed) -> None:
     keys, problems = shape_keys(place)
     weights, more_problems = rest_weights(place, len(keys))
     gathered.warnings += problems + more_problems
+    gathered.combined |= combined_targets(place, keys)
     gathered.grow(0, 0, len(keys))
     for key, weight in zip(keys, weights, strict=True):
         gathered.shapes.setdefault(key, [])
@@ -209,23 +226,19 @@ def _triangles(
     return triangles + block.start
 
 
-def _shapes(gathered: Assembly, options: ReadOptions) -> Iterator[tuple[str, Delta]]:
-    """Make the deltas one at a time."""
+def _deltas(gathered: Assembly, keys: Sequence[ShapeKey], progress: Progress) -> Iterator[Delta]:
+    """Make the deltas of some shapes or combinations, one at a time."""
     stored = 0
-    total = len(gathered.shapes)
-    for j, (key, pieces) in enumerate(gathered.shapes.items()):
-        options.progress(0.4 + 0.6 * j / total, f"shape {j + 1} of {total}")
-        deltas = [_piece(gathered.document, block, accessor) for block, accessor in pieces]
+    for j, key in enumerate(keys):
+        progress(0.4 + 0.6 * j / len(keys), f"shape {j + 1} of {len(keys)}")
+        deltas = [_piece(gathered.document, block, accessor) for block, accessor in gathered.shapes[key]]
         vertices = np.concatenate([np.zeros(0, np.int64), *(vertices for vertices, _ in deltas)])
         stored += len(vertices)
         if stored > 4 * gathered.document.size:
             raise FacepinError(
                 f"{gathered.document.root.where} its targets unfold to far more than the file holds"
             )
-        yield (
-            key[0] if isinstance(key[0], str) else "",
-            (vertices, np.concatenate([np.zeros((0, 3), np.float32), *(moves for _, moves in deltas)])),
-        )
+        yield vertices, np.concatenate([np.zeros((0, 3), np.float32), *(moves for _, moves in deltas)])
 
 
 def _piece(document: GltfDocument, block: Block, accessor: int) -> tuple[NDArray[np.int64], Points]:

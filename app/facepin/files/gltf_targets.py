@@ -5,6 +5,10 @@ from collections import Counter
 from facepin.files.checked_json import JsonObject
 from facepin.files.gltf_scene import Placed
 
+COMBINATIONS = "facepinCombinations"
+"""Where a mesh's extras list the targets whose weight is the product of two others, by numbers of targets:
+`[{"target": 52, "shapes": [8, 20]}, …]`."""
+
 ShapeKey = tuple[str | tuple[int, int], int]
 """(name, how many-eth of that name in its mesh); a target without a name has its mesh and place instead.
 
@@ -30,6 +34,27 @@ def shape_keys(place: Placed) -> tuple[list[ShapeKey], list[str]]:
         keys.append((name, repeated[name]) if name else ((place.mesh_index, j), 0))
         repeated[name] += 1
     return keys, odd
+
+
+def combined_targets(place: Placed, keys: list[ShapeKey]) -> dict[ShapeKey, tuple[ShapeKey, ShapeKey]]:
+    """Return which targets of a mesh are combinations, as `write_glb` notes them, and of which two shapes.
+
+    Raises
+    ------
+    FacepinError
+        When what is noted does not fit the targets.
+    """
+    if not isinstance(place.mesh.values.get("extras"), dict):
+        return {}
+    entries = [
+        (entry.integer("target", high=len(keys) - 1), entry.indices("shapes", len(keys) - 1), entry)
+        for entry in place.mesh.child("extras").children(COMBINATIONS)
+    ]
+    targets = {target for target, _, _ in entries}
+    for _, shapes, entry in entries:
+        if len(shapes) != 2 or shapes[0] == shapes[1] or targets & {*shapes}:
+            entry.refuse("shapes", "numbers of two different targets that are no combinations")
+    return {keys[target]: (keys[shapes[0]], keys[shapes[1]]) for target, shapes, _ in entries}
 
 
 def rest_weights(place: Placed, count: int) -> tuple[list[float], list[str]]:

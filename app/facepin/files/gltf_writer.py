@@ -14,6 +14,7 @@ from facepin.core.rig import Part, Rig
 from facepin.files.atomic import atomic_write
 from facepin.files.gltf_document import BINARY_CHUNK, JSON_CHUNK
 from facepin.files.gltf_materials import srgb_to_linear
+from facepin.files.gltf_targets import COMBINATIONS
 
 FLOAT, SHORT, LONG = 5126, 5123, 5125
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
@@ -22,6 +23,8 @@ ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
     """Write the neutral, all shapes with their names, and `weights` (k,) as the weights of the mesh.
 
+    glTF knows no combinations.  Each is written as one more target whose weight is the product of the two
+    weights, so that the pose looks right everywhere, and `extras` of the mesh say which targets these are.
     Faces become triangles.  Normals are those of the neutral, and nothing is said about how shapes change
     them.  Shapes are stored sparse where that is smaller.
 
@@ -34,7 +37,9 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
     attributes = {"POSITION": packed.points(rig.neutral, bounds=True), "NORMAL": packed.points(_normals(rig))}
     if rig.colours is not None:
         attributes["COLOR_0"] = packed.points(srgb_to_linear(rig.colours))
-    targets = [{"POSITION": packed.delta(*_moves(rig, j), rig.vertex_count)} for j in range(rig.shape_count)]
+    targets = [
+        {"POSITION": packed.delta(*_moves(rig, j), rig.vertex_count)} for j in range(rig.deltas.shape[1])
+    ]
     primitives = [
         {
             "attributes": attributes,
@@ -49,8 +54,8 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
     mesh = {
         "name": rig.parts[0].name if len(rig.parts) == 1 else rig.name,
         "primitives": primitives,
-        "weights": [float(weight) for weight in weights],
-        "extras": {"targetNames": list(rig.shape_names)},
+        "weights": rig.amounts(np.asarray(weights, np.float64)).tolist(),
+        "extras": _extras(rig),
     }
     document = {
         "asset": {"version": "2.0", "generator": "Facepin"},
@@ -64,6 +69,16 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
         "buffers": [{"byteLength": len(packed.content)}],
     }
     atomic_write(path, _container(document, bytes(packed.content)))
+
+
+def _extras(rig: Rig) -> dict[str, Any]:
+    """Return the names of all targets, and of which shapes the combinations among them are."""
+    names = [*rig.shape_names, *rig.combination_names]
+    combined = [
+        {"target": rig.shape_count + i, "shapes": [a, b]}
+        for i, (a, b) in enumerate(rig.combinations.tolist())
+    ]
+    return {"targetNames": names, **({COMBINATIONS: combined} if combined else {})}
 
 
 class _Packed:
@@ -128,9 +143,9 @@ def _bounds(points: Points) -> dict[str, list[float]]:
     return {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
 
 
-def _moves(rig: Rig, shape: int) -> tuple[NDArray[np.int32], Points]:
-    """Return the vertices that a shape moves, ascending, and (s, 3) how far."""
-    run = slice(rig.deltas.indptr[shape], rig.deltas.indptr[shape + 1])
+def _moves(rig: Rig, column: int) -> tuple[NDArray[np.int32], Points]:
+    """Return the vertices that a column of the deltas moves, ascending, and (s, 3) how far."""
+    run = slice(rig.deltas.indptr[column], rig.deltas.indptr[column + 1])
     rows = rig.deltas.indices[run]
     vertices, place = np.unique(rows // 3, return_inverse=True)
     moves = np.zeros((len(vertices), 3), np.float32)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
-from facepin.core.rig_builder import PartLook, build_rig
-from facepin.files.npz_archive import Archive, open_archive, texts
+from facepin.core.rig_builder import Pair, PartLook, build_rig
+from facepin.files.npz_archive import Archive, Member, open_archive, texts
 from facepin.files.options import ReadOptions
 
 
@@ -23,6 +23,9 @@ def read_npz(path: Path, options: ReadOptions) -> Rig:
     vertex, a face belongs to that of its first corner; `part_colours` and `part_mats` (roughness first), a
     row per part; `colors` or `colours` (n, 3); `weights` (k).  Colours are sRGB, 0..1 or bytes.  What does
     not fit is left out with a warning.
+
+    Optional too, but refused where they do not fit, since the face would look wrong without: `combo_pairs`
+    (c, 2) numbers of two shapes each, with `combo_deltas` (c, n, 3) that the product of their weights adds.
 
     Raises
     ------
@@ -49,6 +52,7 @@ def _read(archive: Archive, path: Path, options: ReadOptions) -> Rig:
         raise FacepinError(
             f"{where}: deltas are {deltas.dtype} {deltas.shape}, allowed: floats (k, {vertices}, 3), k > 0"
         )
+    pairs, products = _combinations(archive, where, vertices)
     table = archive.array(faces).astype(np.int64)
     used = table != -1
     if (used[:, 1:] & ~used[:, :-1]).any():
@@ -64,8 +68,12 @@ def _read(archive: Archive, path: Path, options: ReadOptions) -> Rig:
 
     def shapes() -> Iterator[tuple[str, Delta]]:
         for j, delta in enumerate(archive.slices(deltas)):
-            options.progress(0.1 + 0.9 * j / count, f"shape {j + 1} of {count}")
+            options.progress(0.1 + 0.9 * j / (count + len(pairs)), f"shape {j + 1} of {count}")
             yield names[j], delta
+
+    def combinations() -> Iterator[tuple[Pair, Delta]]:
+        if products is not None:
+            yield from zip(pairs, archive.slices(products), strict=True)
 
     return build_rig(
         path.stem,
@@ -73,6 +81,7 @@ def _read(archive: Archive, path: Path, options: ReadOptions) -> Rig:
         corners,
         sizes,
         shapes(),
+        combinations=combinations(),
         parts=looks if face_parts is not None else (),
         face_parts=face_parts,
         colours=extras.colours(),
@@ -80,6 +89,26 @@ def _read(archive: Archive, path: Path, options: ReadOptions) -> Rig:
         warnings=extras.warnings,
         source=path,
     )
+
+
+def _combinations(archive: Archive, where: str, vertices: int) -> tuple[list[Pair], Member | None]:
+    """Return which shapes are combined, and the array of what that adds."""
+    found = [key for key in ("combo_pairs", "combo_deltas") if key in archive]
+    if not found:
+        return [], None
+    if len(found) == 1:
+        raise FacepinError(f"{where}: {found[0]} without the other of combo_pairs and combo_deltas")
+    pairs, deltas = (archive.member(key) for key in found)
+    if pairs.dtype.kind not in "iu" or pairs.shape[1:] != (2,):
+        raise FacepinError(
+            f"{where}: combo_pairs are {pairs.dtype} {pairs.shape}, allowed: whole numbers (c, 2)"
+        )
+    if deltas.dtype.kind != "f" or deltas.shape != (pairs.shape[0], vertices, 3):
+        raise FacepinError(
+            f"{where}: combo_deltas are {deltas.dtype} {deltas.shape}, "
+            f"allowed: floats ({pairs.shape[0]}, {vertices}, 3)"
+        )
+    return [(int(a), int(b)) for a, b in archive.array(pairs).tolist()], deltas
 
 
 class Extras:

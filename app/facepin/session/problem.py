@@ -14,21 +14,15 @@ from facepin.solvers.interface import PinSystem
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
-    """Pins at their places: what stays the same on every frame of a drag.
+class LinearProblem:
+    """The pins as f free shapes move them."""
 
-    Shapes that are locked or silent are left out of the system, and what they do to the pins is taken from
-    the displacement: no solver knows of them.
-    """
-
-    rows: Floats
-    """(r, k) pin rows of all shapes."""
     system: PinSystem
-    """The problem of the f free shapes."""
+    """Of the free shapes."""
     free: NDArray[np.intp] | None
     """(f,) which they are; None for all."""
     share: Floats | None
-    """(r,) what the others do to the pins; None for nothing."""
+    """(r,) moves of the pins, from their places at rest, when all free weights are 0; None for nothing."""
 
     def displacement(self, displacement: Floats) -> Floats:
         """Return of a displacement (r,) what is left to the free shapes."""
@@ -47,22 +41,52 @@ class Problem:
         return weights
 
 
-def make_problem(
-    rig: Rig, control: ShapeControl, pins: tuple[Pin, ...], start: Floats, radius: float
-) -> Problem:
-    """Set up the problem of moving `pins` from the weights `start` (k,).
+class PinProblem:
+    """Pins at their places, before it is said where they should go.
 
-    `radius` is how far around the pins shapes are asked how local they are, in % of the face height; 0 asks
-    nothing.
+    Shapes that are locked or silent are left out of the system, and what they do to the pins is taken from
+    the displacement: no solver knows of them.  Nor does it know of combinations: the face is taken for the
+    linear one that agrees with it, in places and slopes, at a pose.
     """
-    rows = pin_rows(rig, pins)
-    sizes, limits = rig.largest_moves, control.limits
-    locality = None
-    if radius > 0:
-        locality = shape_locality(rig, [pin.vertex for pin in pins], radius / 100 * rig.height)
-    if not control.held.any():
-        return Problem(rows, PinSystem(rows, limits, rig.scale, sizes, locality), None, None)
-    free, heard = control.free, control.heard(start)
-    locality = None if locality is None else locality[free]
-    system = PinSystem(rows[:, free], limits[free], rig.scale, sizes[free], locality)
-    return Problem(rows, system, free, rows @ heard - system.rows @ heard[free])
+
+    def __init__(
+        self, rig: Rig, control: ShapeControl, pins: tuple[Pin, ...], start: Floats, radius: float
+    ) -> None:
+        """Look at `pins` from the pose (k,) in which a drag begins.
+
+        `radius` is how far around the pins shapes are asked how local they are, in % of the face height; 0
+        asks nothing.
+        """
+        self.rows = pin_rows(rig, pins)
+        """(r, k + c) pin rows of all shapes and combinations."""
+        self.curved = bool(self.rows[:, rig.shape_count :].any())
+        """Whether combinations move a pin."""
+        self.follows_start = self.curved or bool(control.held.any())
+        """Whether it is another problem when the drag begins at other weights."""
+        self._rig, self._control, self._start = rig, control, start
+        self._locality = None
+        if radius > 0:
+            vertices = [pin.vertex for pin in pins]
+            reach = radius / 100 * rig.height
+            self._locality = shape_locality(rig, vertices, reach, control.heard(start))
+
+    def linear_at(self, weights: Floats) -> LinearProblem:
+        """Return the problem that is exact at a pose (k,)."""
+        rig, control, ties = self._rig, self._control, self._control.ties
+        heard = control.heard(weights)
+        slopes = rig.slopes(self.rows, heard)
+        sizes, limits, locality = rig.largest_moves, control.limits, self._locality
+        if not self.follows_start:
+            return LinearProblem(PinSystem(slopes, limits, rig.scale, sizes, locality, ties), None, None)
+        free = control.free
+        limits = control.limits_beside_locks(self._start)[free]
+        place = {j: at for at, j in enumerate(free.tolist())}
+        ties = tuple((place[a], place[b]) for a, b in ties if a in place and b in place)
+        locality = None if locality is None else locality[free]
+        system = PinSystem(slopes[:, free], limits, rig.scale, sizes[free], locality, ties)
+        return LinearProblem(system, free, self.rows @ rig.amounts(heard) - system.rows @ heard[free])
+
+    def moves(self, weights: Floats) -> Floats:
+        """Return the moves of the pins at a pose (k,) from their places at rest, (r,): the true ones."""
+        moves: Floats = self.rows @ self._rig.amounts(self._control.heard(weights))
+        return moves

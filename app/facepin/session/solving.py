@@ -12,9 +12,12 @@ from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin, Pose, as_vector, pin_displacement
 from facepin.core.rig import Rig
-from facepin.session.problem import Problem, make_problem
+from facepin.session.problem import LinearProblem, PinProblem
 from facepin.solvers import SOLVERS
 from facepin.solvers.interface import Solve, SolverKind
+
+SECOND_LOOKS = 2
+"""Times that a solver which starts afresh is asked again, for the face as it is at its last answer."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ class PinSolver:
         self._control = ShapeControl.of(rig) if control is None else control
         self._places: object = None
         self._start: Floats | None = None
-        self._prepared: tuple[Problem, Solve] | None = None
+        self._prepared: _Prepared | None = None
 
     def solve(self, pins: tuple[Pin, ...], start: Floats) -> Solved:
         """Return weights (k,) that carry the pins towards their goals from the weights `start` (k,).
@@ -75,41 +78,65 @@ class PinSolver:
         FacepinError
             When the solver fails or gives a weight that is not finite.
         """
+        kind = self.choice.kind
         displacement = pin_displacement(self._rig, pins)
         try:
-            problem, solve = self._prepare(pins, start)
+            prepared = self._prepare(pins, start)
             began = perf_counter()
-            solution = solve(problem.displacement(displacement), problem.taken(start))
+            weights, notes = prepared.answer(displacement, start)
+            if kind.afresh and prepared.problem.curved:
+                # Such a start may be far from the answer, and the face another one there.
+                for _ in range(SECOND_LOOKS):
+                    again = self._linearised(prepared.problem, weights)
+                    weights, notes = again.answer(displacement, start)
         except np.linalg.LinAlgError as error:
-            raise FacepinError(
-                f"{self.choice.kind.title} found no solution for these pins: {error}"
-            ) from error
-        if not np.isfinite(solution.weights).all():
-            raise FacepinError(
-                f"{self.choice.kind.title} gave weights that are not finite; the last pose is kept"
-            )
-        weights = problem.given_back(solution.weights, start)
-        if self.choice.keep_limits and not self.choice.kind.obeys_limits:
+            raise FacepinError(f"{kind.title} found no solution for these pins: {error}") from error
+        if self.choice.keep_limits and not kind.obeys_limits:
             weights = self._control.clipped(weights, start)
         seconds = perf_counter() - began
-        missing = problem.rows @ self._control.heard(weights) - displacement
-        return Solved(frozen(weights, np.float64), _mean_length(pins, missing), seconds, solution.notes)
+        missing = prepared.problem.moves(weights) - displacement
+        return Solved(frozen(weights, np.float64), _mean_length(pins, missing), seconds, notes)
 
-    def _prepare(self, pins: tuple[Pin, ...], start: Floats) -> tuple[Problem, Solve]:
+    def _prepare(self, pins: tuple[Pin, ...], start: Floats) -> "_Prepared":
         """Return the solver for pins at these places; goals may differ from call to call."""
         places = tuple(
             (pin.vertex, pin.freedom, pin.axes if pin.freedom == "screen" else None, pin.stiffness)
             for pin in pins
         )
-        known = self._prepared is not None and places == self._places
-        if known and self._control.held.any():
-            known = self._start is not None and np.array_equal(start, self._start)
-        if self._prepared is None or not known:
+        if self._prepared is None or places != self._places or not self._fits(self._prepared, start):
             radius = getattr(self.choice.settings, "radius", 0.0)
-            problem = make_problem(self._rig, self._control, pins, start, radius)
-            self._prepared = problem, self.choice.kind.prepare(problem.system, self.choice.settings)
+            problem = PinProblem(self._rig, self._control, pins, start, radius)
+            self._prepared = self._linearised(problem, start)
             self._places, self._start = places, start
         return self._prepared
+
+    def _fits(self, prepared: "_Prepared", start: Floats) -> bool:
+        return not prepared.problem.follows_start or (
+            self._start is not None and np.array_equal(start, self._start)
+        )
+
+    def _linearised(self, problem: PinProblem, weights: Floats) -> "_Prepared":
+        linear = problem.linear_at(weights)
+        solve = self.choice.kind.prepare(linear.system, self.choice.settings)
+        return _Prepared(problem, linear, solve, self.choice.kind.title)
+
+
+@dataclass(frozen=True, eq=False)
+class _Prepared:
+    """What is the same on every frame of a drag."""
+
+    problem: PinProblem
+    linear: LinearProblem
+    solve: Solve
+    title: str
+    """Of the solver."""
+
+    def answer(self, displacement: Floats, start: Floats) -> tuple[Floats, Mapping[str, float]]:
+        """Return weights (k,), and what the solver notes."""
+        solution = self.solve(self.linear.displacement(displacement), self.linear.taken(start))
+        if not np.isfinite(solution.weights).all():
+            raise FacepinError(f"{self.title} gave weights that are not finite; the last pose is kept")
+        return self.linear.given_back(solution.weights, start), solution.notes
 
 
 def _mean_length(pins: tuple[Pin, ...], missing: Floats) -> float:
@@ -126,7 +153,8 @@ def snapped(rig: Rig, pose: Pose, control: ShapeControl) -> Pose:
     if not pose.pins:
         return pose
     vertices = [pin.vertex for pin in pose.pins]
-    places = (rig.rows_at(vertices) @ control.heard(pose.weights)).reshape(-1, 3) + rig.neutral[vertices]
+    moves = rig.rows_at(vertices) @ rig.amounts(control.heard(pose.weights))
+    places = moves.reshape(-1, 3) + rig.neutral[vertices]
     return pose.with_pins(
         tuple(
             Pin(pin.vertex, as_vector(place), pin.freedom, pin.axes, pin.stiffness)

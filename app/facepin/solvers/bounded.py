@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facepin.solvers.boxed import Price, prepare_boxed
+from facepin.solvers.boxed import Price
 from facepin.solvers.interface import Floats, PinSystem, Solution, Solve, SolverKind, setting
+from facepin.solvers.ties import prepare_tied
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ def prepare(system: PinSystem, settings: BoundedSettings) -> Solve:
 
     Notes: `steps` of the active-set method, and `optimality` (see `facepin.solvers.boxed.Minimum`).
     """
-    minimise = prepare_boxed(system, settings.alpha * system.scale)
+    minimise = prepare_tied(system, settings.alpha * system.scale)
     nothing = np.zeros(system.rows.shape[1])
     free = Price(nothing, nothing, nothing)
 

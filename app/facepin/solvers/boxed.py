@@ -47,9 +47,9 @@ class Price:
     centre: Floats
     """(k,) c"""
     raising: Floats
-    """(k,) λ⁺ ≥ 0"""
+    """(k,) λ⁺ ≥ -λ⁻"""
     lowering: Floats
-    """(k,) λ⁻ ≥ 0"""
+    """(k,) λ⁻; negative where lowering is paid for."""
 
 
 Minimise = Callable[[Floats, Floats, Price], Minimum]

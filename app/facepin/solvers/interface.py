@@ -24,6 +24,8 @@ class PinSystem:
     """(k,) largest vertex move of each shape, anywhere on the rig; None: all alike, the root of `scale`."""
     locality: Floats | None = None
     """(k,) share of each shape that happens near the pins, 0..1, for solvers with a setting `radius` > 0."""
+    ties: tuple[tuple[int, int], ...] = ()
+    """Pairs (a, b) of shapes: the weight of a may be at most that of b.  For solvers that obey limits."""
 
 
 @dataclass(frozen=True, eq=False)

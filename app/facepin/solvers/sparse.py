@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facepin.solvers.boxed import Price, prepare_boxed
+from facepin.solvers.boxed import Price
 from facepin.solvers.interface import Floats, PinSystem, Solution, Solve, SolverKind, setting
+from facepin.solvers.ties import prepare_tied
 
 RIDGE = 1e-6
 """Pull towards the start, in units of `system.scale`: picks one answer where several cost the same (two equal
@@ -46,7 +47,7 @@ def prepare(system: PinSystem, settings: SparseSettings) -> Solve:
 
     Notes: `steps` of the active-set method, and `optimality` (see `facepin.solvers.boxed.Minimum`).
     """
-    minimise = prepare_boxed(system, RIDGE * system.scale)
+    minimise = prepare_tied(system, RIDGE * system.scale)
     unit = system.scale**0.5
     sizes = np.full(system.rows.shape[1], unit) if system.sizes is None else system.sizes
     price = settings.price * unit * np.maximum(sizes, LEAST * unit)

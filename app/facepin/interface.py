@@ -17,7 +17,8 @@ from facepin.panels.requests import Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import hint, loading_card, status_line
 from facepin.panels.theme import pane_colours
-from facepin.panels.weights import weights_panel
+from facepin.panels.weights.panel import weights_panel
+from facepin.session.edit import Edit
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
@@ -60,16 +61,17 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         imgui units per pixel of a 1x screen.
     """
     session = desk.session
-    request = edit = None
+    request = wish = None
     layout.without_background(layout.SOLVER)
     if imgui.begin(layout.SOLVER)[0] and session is not None:
         request = solver_panel(
             session.rig, session.control, session.pane, session.active, desk.view.panes[session.active]
         )
     imgui.end()
+    desk.view.weights.explained = None
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
-        edit = weights_panel(
+        wish = weights_panel(
             session.rig,
             session.control,
             session.panes,
@@ -79,12 +81,15 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             in_gesture=session.in_gesture,
         )
     imgui.end()
-    if edit is not None:
-        desk.apply(edit)
+    for at, pane in enumerate(desk.view.panes):
+        pane.shape = desk.view.weights.explained if session is not None and at == session.active else None
+    if isinstance(wish, Edit):
+        desk.apply(wish)
+        wish = None
     chart: Request | None = None
     if desk.view.chart and session is not None:
         desk.view.chart, chart = chart_window(session.rig, session.panes, session.work.reference, scale)
-    return [asked for asked in (request, chart) if asked is not None]
+    return [asked for asked in (request, wish, chart) if asked is not None]
 
 
 def over_picture(

@@ -135,6 +135,8 @@ class Stage:
             heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
         if view.reach:
             heat = shown.gauge.reach(work.panes[pane])
+        if view.shape is not None:
+            heat = shown.gauge.shape(view.shape)
         ghost = None
         if view.ghost == "neutral" or (view.ghost == "reference" and work.reference is not None):
             ghost = self._ghost(view.ghost, None if view.ghost == "neutral" else work.reference)
@@ -186,7 +188,9 @@ class Stage:
             self._scene.background.draw(canvas, sights, beside)
             part: Part = "all"
         else:
-            faces = [None if view.heat else self.mesh(at) for at, view in enumerate(overlays[: len(sights)])]
+            faces = [
+                None if view.coloured else self.mesh(at) for at, view in enumerate(overlays[: len(sights)])
+            ]
             self._still.draw(canvas, sights, faces, beside)
             part = "moving"
         for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):

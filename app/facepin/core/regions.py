@@ -77,7 +77,9 @@ def regions_and_sides(rig: Rig) -> tuple[tuple[Region, ...], tuple[Side, ...]]:
     """
     places = shape_places(rig)
     placed = _placed_regions(places, rig.height)
-    regions = tuple(named_region(name) or region for name, region in zip(rig.shape_names, placed, strict=True))
+    regions = tuple(
+        named_region(name) or region for name, region in zip(rig.shape_names, placed, strict=True)
+    )
     return regions, _sides(rig.shape_names, places)
 
 
@@ -115,8 +117,10 @@ def _sides(names: tuple[str, ...], places: ShapePlaces) -> tuple[Side, ...]:
     """Return a side for each shape."""
     left = np.nan_to_num(places.left, nan=0.5)
     said = [named_side(name) for name in names]
-    votes = sum((share - 0.5) * (side == "left") - (share - 0.5) * (side == "right")
-                for share, side in zip(left, said, strict=True))
+    votes = sum(
+        (share - 0.5) * (side == "left") - (share - 0.5) * (side == "right")
+        for share, side in zip(left, said, strict=True)
+    )
     if votes < 0:  # the face looks the other way
         left = 1.0 - left
 

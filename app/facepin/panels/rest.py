@@ -14,7 +14,7 @@ class Rest:
         self._since = 0.0
 
     def on(self, thing: object) -> bool:
-        """Say what the mouse is on in this frame (None for nothing); return whether it has come to rest there."""
+        """Say what the mouse is on in this frame (None for nothing); return whether it rests there."""
         if thing != self._on:
             self._on, self._since = thing, imgui.get_time()
         return thing is not None and imgui.get_time() - self._since >= RESTING

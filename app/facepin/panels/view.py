@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from facepin.core.pose import Freedom
-from facepin.panels.weights import WeightsView
+from facepin.panels.weights.view import WeightsView
 
 Quality = Literal["auto", "always", "off"]
 
@@ -25,15 +25,23 @@ class PaneView:
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 
+    shape: int | None = None
+    """Shape whose moves are shown as colours; while the mouse rests on its name."""
+
     def next_ghost(self, *, has_reference: bool) -> None:
         """Go on to the next ghost there is."""
         ghosts: tuple[Ghost, ...] = ("none", "neutral", "reference") if has_reference else ("none", "neutral")
         self.ghost = ghosts[(ghosts.index(self.ghost) + 1) % len(ghosts)] if self.ghost in ghosts else "none"
 
     @property
-    def key(self) -> tuple[bool, bool, Ghost, bool]:
+    def coloured(self) -> bool:
+        """Whether the face is shown in colours that are not its own."""
+        return self.heat or self.reach or self.shape is not None
+
+    @property
+    def key(self) -> tuple[bool, bool, Ghost, bool, int | None]:
         """Equal keys look the same."""
-        return self.heat, self.wireframe, self.ghost, self.reach
+        return self.heat, self.wireframe, self.ghost, self.reach, self.shape
 
 
 @dataclass

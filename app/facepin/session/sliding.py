@@ -2,9 +2,7 @@
 
 from collections.abc import Mapping
 
-import numpy as np
-
-from facepin.core.arrays import Floats
+from facepin.core.arrays import Floats, Indices
 from facepin.core.control import ShapeControl
 
 
@@ -22,9 +20,10 @@ def slid(weights: Floats, values: Mapping[int, float]) -> Floats:
 def within(control: ShapeControl, weights: Floats, shape: int, value: float) -> float:
     """Return the value that a slider stops at on its way from weights (k,) to `value`.
 
-    These are its limits; where the weight was beyond them, it can go back but not further out.
+    These are the limits of the shape; where the weight was beyond them, it can go back but not further out.
+    Ties to other shapes don't stop a hand: it may mean to move the other slider next.
     """
-    low, high = control.limits_at(weights)[shape].tolist()
+    low, high = (float(limit) for limit in control.limits[shape])
     start = float(weights[shape])
     return min(max(value, min(low, start)), max(high, start))
 
@@ -34,7 +33,7 @@ def gained(control: ShapeControl, weights: Floats, gain: float) -> Floats:
     return control.keeping_locked(control.clipped(weights * gain, weights), weights)
 
 
-def reset(control: ShapeControl, weights: Floats, shapes: np.ndarray | slice = slice(None)) -> Floats:
+def reset(control: ShapeControl, weights: Floats, shapes: Indices | slice = slice(None)) -> Floats:
     """Return weights (k,) with those of `shapes` at zero; locked ones stay."""
     changed = weights.copy()
     changed[shapes] = 0.0

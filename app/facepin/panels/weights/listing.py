@@ -94,7 +94,11 @@ class Listing:
 
     def _listed(self, arrangement: Arrangement, words: list[str], folded: frozenset[str]) -> list[Line]:
         def found(shapes: Sequence[int]) -> list[int]:
-            return [j for j in shapes if all(word in self._lower[j] for word in words)] if words else list(shapes)
+            return (
+                [j for j in shapes if all(word in self._lower[j] for word in words)]
+                if words
+                else list(shapes)
+            )
 
         if arrangement == "rig order":
             return [*found(range(self.rig.shape_count))]

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 from facepin.core.arrays import Floats
 from facepin.core.rig import Rig
 from facepin.panels.rest import Rest
+from facepin.panels.weights.columns import Columns
 from facepin.panels.weights.gesture import Gesture
-from facepin.panels.weights.listing import Arrangement, Listing
+from facepin.panels.weights.listing import Arrangement, Line, Listing
 from facepin.panels.weights.text import Elider
 
 
@@ -28,8 +29,12 @@ class WeightsView:
     """The slider in the user's hand."""
     gain: tuple[Floats, float] | None = None
     """While the gain is moved: the weights (k,) at the press, and the gain."""
-    menu: int | str = -1
-    """Shape or name of the group whose menu is open."""
+    menu: Line | None = None
+    """Shape or group whose menu is open."""
+    menu_opens: bool = False
+    """It was asked for just now."""
+    columns: Columns | None = None
+    """Where the list was drawn last."""
     rest: Rest = field(default_factory=Rest)
     elider: Elider = field(default_factory=Elider)
     _listing: Listing | None = None

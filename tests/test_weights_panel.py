@@ -1,14 +1,15 @@
 """The weights panel under a real mouse's habits: a button stays down for several frames."""
 
 from collections.abc import Iterator
-from pathlib import Path
+from dataclasses import replace
+from time import sleep
 
 import numpy as np
 import pytest
 from imgui_bundle import imgui
 
 from driver import App, running
-from facepin.core.events import KeyPressed, PointerMoved, PointerPressed, PointerReleased, Stirred
+from facepin.core.events import PointerMoved, PointerPressed, PointerReleased, Scrolled, Stirred
 from facepin.panels.requests import SetControl
 from facepin.panels.weights.columns import Zone
 from facepin.panels.weights.listing import Group
@@ -17,7 +18,7 @@ from facepin.session.edit import Edit
 
 @pytest.fixture(scope="module")
 def shared_app() -> Iterator[App]:
-    with running() as app:
+    with running(size=(720, 720)) as app:
         imgui.get_io().mouse_single_click_delay = 11
         imgui.get_io().mouse_double_click_time = 10  # a slow machine is not a slow hand
         yield app
@@ -30,12 +31,12 @@ def app(shared_app: App) -> Iterator[App]:
     while app.session.undo():
         pass
     view.search, view.arrangement, view.folded, view.focus = "", "rig order", frozenset(), None
-    app.step(PointerMoved(300, 300), frames=3)
+    app.step(PointerMoved(200, 100), frames=3)
     click(app, (20.0, 60.0))  # beside everything: takes the keyboard away
     yield app
     for key in (imgui.Key.mod_ctrl, imgui.Key.mod_shift, imgui.Key.mod_alt):
         imgui.get_io().add_key_event(key, False)
-    app.step(PointerMoved(300, 300), frames=3)
+    app.step(PointerMoved(200, 100), frames=3)
     assert view.gesture is None
     assert not app.session.in_gesture
 
@@ -52,31 +53,35 @@ def place(app: App, shape: str | int, zone: Zone | float = "name") -> tuple[floa
         shape = app.session.rig.shape_names.index(shape)
     number = next(at for at, line in enumerate(lines) if shape in (line, getattr(line, "name", None)))
     begin, end = columns.slider
-    x = {
-        "name": columns.name + 5,
-        "solo": columns.icon(0),
-        "mute": columns.icon(1),
-        "lock": columns.icon(2),
-        "slider": (begin + end) / 2,
-        "number": columns.right - 8,
-    }.get(zone) if isinstance(zone, str) else begin + zone * (end - begin)
+    x = (
+        {
+            "name": columns.name + 5,
+            "solo": columns.icon(0),
+            "mute": columns.icon(1),
+            "lock": columns.icon(2),
+            "slider": (begin + end) / 2,
+            "number": columns.right - 8,
+        }.get(zone)
+        if isinstance(zone, str)
+        else begin + zone * (end - begin)
+    )
     assert x is not None
     return x, columns.y(number) + columns.row / 2
 
 
 def click(app: App, at: tuple[float, float], button: str = "left") -> None:
-    app.step(PointerMoved(*at), frames=3)
+    app.step(PointerMoved(*at), frames=2)
     app.step(PointerPressed(*at, button))
-    app.step(PointerMoved(*at), frames=3)
-    app.step(PointerReleased(*at, button), frames=3)
+    app.step(PointerMoved(*at), frames=2)
+    app.step(PointerReleased(*at, button), frames=2)
 
 
 def key(app: App, *keys: imgui.Key) -> None:
     for one in keys:
         imgui.get_io().add_key_event(one, True)
-        app.step(Stirred(), frames=3)
+        app.step(Stirred(), frames=2)
         imgui.get_io().add_key_event(one, False)
-        app.step(Stirred(), frames=3)
+        app.step(Stirred(), frames=2)
 
 
 def weight(app: App, shape: str) -> float:
@@ -92,8 +97,6 @@ def pose(app: App, **weights: float) -> None:
 
 
 def restrain(app: App, **changes: object) -> None:
-    from dataclasses import replace
-
     app.ask(SetControl("Restrain", replace(app.session.control, **changes)))  # type: ignore[arg-type]
     app.step(Stirred(), frames=3)
 
@@ -204,8 +207,6 @@ def test_arrow_keys_are_left_alone_while_the_picture_has_the_keyboard(app: App) 
 
 
 def test_the_wheel_scrolls_and_with_ctrl_turns_the_slider_as_one_step(app: App) -> None:
-    from facepin.core.events import Scrolled
-
     at = place(app, "browInnerUp", 0.5)
     app.step(PointerMoved(*at), frames=3)
     imgui.get_io().add_key_event(imgui.Key.mod_ctrl, True)
@@ -227,7 +228,7 @@ def test_a_locked_slider_stays_and_says_so(app: App) -> None:
     pose(app, browInnerUp=0.3)
     click(app, place(app, "browInnerUp", "lock"))
     assert app.session.undo_label == "Lock browInnerUp"
-    app.drag(place(app, "browInnerUp", 0.5), place(app, "browInnerUp", 0.9))
+    app.drag(place(app, "browInnerUp", 0.5), place(app, "browInnerUp", 0.9), moves=3)
     assert weight(app, "browInnerUp") == 0.3
     assert app.desk.message == "browInnerUp is locked"
     assert app.session.undo_label == "Lock browInnerUp"
@@ -286,7 +287,7 @@ def test_limits_are_obeyed_by_the_mouse_and_a_weight_beyond_may_only_come_back(a
     app.move(*place(app, "browInnerUp", 0.0))
     assert weight(app, "browInnerUp") == 0.1
     app.release(*place(app, "browInnerUp", 0.0))
-    app.drag(place(app, "browInnerUp", 0.2), place(app, "browInnerUp", 2.0))
+    app.drag(place(app, "browInnerUp", 0.2), place(app, "browInnerUp", 2.0), moves=3)
     assert weight(app, "browInnerUp") == 0.6
 
 
@@ -308,31 +309,72 @@ def test_the_gain_scales_all_that_is_not_locked_as_one_step(app: App) -> None:
 
 
 def test_a_name_shows_on_the_face_what_its_shape_moves_after_a_rest(app: App) -> None:
-    from time import sleep
-
     at = place(app, "browInnerUp")
     app.step(PointerMoved(*at), frames=3)
-    before = app.screenshot()[:, :900].copy()
+    before = app.screenshot()[:, :380].copy()
     sleep(0.2)
     app.step(Stirred(), frames=3)
     assert app.desk.view.panes[0].shape == app.session.rig.shape_names.index("browInnerUp")
-    assert (app.screenshot()[:, :900] != before).mean() > 0.01
+    assert (app.screenshot()[:, :380] != before).mean() > 0.01
     app.press(*place(app, "browInnerUp", 0.0))
     assert app.desk.view.panes[0].shape is None
     app.release(*place(app, "browInnerUp", 0.0))
     app.step(frames=3)
-    assert np.array_equal(app.screenshot()[:, :900], before)
+    assert np.array_equal(app.screenshot()[:, :380], before)
 
 
-def test_a_menu_sets_limits(app: App) -> None:
-    click(app, place(app, "browInnerUp"), "right")
-    assert app.desk.view.weights.menu == app.session.rig.shape_names.index("browInnerUp")
+def test_menus_open_for_shapes_and_groups_and_set_limits(app: App) -> None:
+    j = app.session.rig.shape_names.index("browInnerUp")
+    at = place(app, "browInnerUp")
+    click(app, at, "right")
+    assert app.desk.view.weights.menu == j
+    click(app, (at[0] + 30, at[1] + 137))  # the field for the lowest weight
+    imgui.get_io().add_input_characters_utf8("-0.5")
+    app.step(Stirred(), frames=3)
+    key(app, imgui.Key.enter)
+    assert app.session.control.limits[j].tolist() == [-0.5, 1]
+    assert app.session.undo_label == "Limit browInnerUp"
     key(app, imgui.Key.escape)
     assert app.desk.view.weights.menu is None
     app.desk.view.weights.arrangement = "by side"
     app.step(Stirred(), frames=3)
     click(app, place(app, "left"), "right")
     assert isinstance(app.desk.view.weights.menu, Group)
-    app.save(Path("/tmp/w/menu.png"))
-    app.step(KeyPressed("escape"), frames=1)
     key(app, imgui.Key.escape)
+
+
+def test_undo_in_the_middle_of_a_drag_ends_it(app: App) -> None:
+    pose(app, browInnerUp=0.4)
+    before = app.session.work
+    app.press(*place(app, "browInnerUp", 0.8))
+    app.key("z", control=True)
+    assert app.session.work is before
+    app.move(*place(app, "browInnerUp", 0.2))
+    app.release(*place(app, "browInnerUp", 0.2))
+    assert app.session.work is before
+
+
+def test_a_press_in_the_picture_makes_a_step_of_what_the_wheel_began(app: App) -> None:
+    at = place(app, "browInnerUp", 0.5)
+    app.step(PointerMoved(*at), frames=2)
+    imgui.get_io().add_key_event(imgui.Key.mod_ctrl, True)
+    app.step(Scrolled(*at, 1.0), frames=2)
+    assert app.session.in_gesture
+    app.step(PointerMoved(20, 60), PointerPressed(20, 60))
+    app.step(PointerReleased(20, 60), frames=3)
+    assert app.session.undo_label == "Set browInnerUp"
+    assert weight(app, "browInnerUp") == 0.01
+    assert app.session.undo() and app.session.undo_label is None
+
+
+def test_ctrl_over_the_face_lists_the_shapes_that_move_it(app: App) -> None:
+    app.step(PointerMoved(*app.pixel_of(1441)), frames=2)
+    assert not app.desk.view.weights.marked
+    imgui.get_io().add_key_event(imgui.Key.mod_ctrl, True)
+    app.step(Stirred(), frames=3)
+    names = {app.session.rig.shape_names[j] for j in app.desk.view.weights.marked}
+    assert {"mouthSmileLeft", "jawOpen"} <= names
+    assert "browInnerUp" not in names
+    imgui.get_io().add_key_event(imgui.Key.mod_ctrl, False)
+    app.step(Stirred(), frames=3)
+    assert not app.desk.view.weights.marked

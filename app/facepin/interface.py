@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
+from facepin.core.shape_motion import movers
 from facepin.desk import Desk
 from facepin.panels import layout
 from facepin.panels.chart import chart_window
@@ -17,8 +18,10 @@ from facepin.panels.requests import Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import hint, loading_card, status_line
 from facepin.panels.theme import pane_colours
+from facepin.panels.vertex_card import vertex_card
 from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
+from facepin.stage import Stage
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float) -> list[Request]:
@@ -118,9 +121,27 @@ def over_picture(
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.heat:
             heat_legend(session.rig.height, place, pixel_ratio, scale)
+    _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if not session.pose.pins and not session.pose.weights.any():
         hint("Click the face to place a pin, then drag it", viewport, pixel_ratio)
     return asked
+
+
+def _vertex_under_mouse(
+    desk: Desk, stage: Stage, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
+) -> None:
+    """While Ctrl is held: tell which shapes can move what is under the mouse, and mark their sliders."""
+    io, view = imgui.get_io(), desk.view.weights
+    view.marked = frozenset()
+    if not io.key_ctrl or io.want_capture_mouse or any(io.mouse_down):
+        return
+    pixel = io.mouse_pos.x * pixel_ratio, io.mouse_pos.y * pixel_ratio
+    for at, (place, camera) in enumerate(zip(viewports, desk.cameras, strict=False)):
+        vertex = stage.vertex_under(at, camera, place, pixel) if place.contains(*pixel) else None
+        if vertex is not None:
+            found = movers(stage.session.rig, vertex)
+            view.marked = frozenset(j for j, _ in found)
+            vertex_card(stage.session.rig, stage.session.control, vertex, found, scale)
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:

@@ -7,6 +7,9 @@ import numpy as np
 from facepin.core.arrays import Floats
 from facepin.core.rig import Rig
 
+NOTABLE = 0.02
+"""Share of the strongest move at a vertex below which a shape does not count there."""
+
 
 def shape_moves(rig: Rig, shape: int) -> Floats:
     """Return how far a shape at weight 1 moves each vertex, (n,) float64 lengths."""
@@ -17,9 +20,13 @@ def shape_moves(rig: Rig, shape: int) -> Floats:
 
 
 def movers(rig: Rig, vertex: int) -> list[tuple[int, float]]:
-    """Return the shapes that move a vertex, strongest first, each with its move at weight 1 as a length."""
+    """Return the shapes that move a vertex, strongest first, each with its move at weight 1 as a length.
+
+    Those that move it by less than `NOTABLE` of the strongest one are left out.
+    """
     lengths = np.linalg.norm(rig.rows_at([vertex]), axis=0)
-    strongest = np.argsort(-lengths, kind="stable")[: np.count_nonzero(lengths)]
+    least = max(NOTABLE * lengths.max(initial=0.0), np.finfo(np.float64).tiny)
+    strongest = np.argsort(-lengths, kind="stable")[: np.count_nonzero(lengths >= least)]
     return [(int(j), float(lengths[j])) for j in strongest]
 
 

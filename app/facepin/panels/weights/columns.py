@@ -1,6 +1,7 @@
 """Where things stand in the list of the weights panel, and what of them a point is on."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import floor
 from typing import Literal
 
@@ -35,17 +36,17 @@ class Columns:
         room = right - left - (INSET + GAP + NUMBER) * scale
         return Columns(left, right, top, min(widest + 2 * scale, 0.56 * room), scale)
 
-    @property
+    @cached_property
     def row(self) -> float:
         """Height of a row."""
         return ROW * self.scale
 
-    @property
+    @cached_property
     def name(self) -> float:
         """Where names begin."""
         return self.left + INSET * self.scale
 
-    @property
+    @cached_property
     def slider(self) -> tuple[float, float]:
         """Where sliders begin and end."""
         return self.name + self.names + GAP * self.scale, self.right - NUMBER * self.scale

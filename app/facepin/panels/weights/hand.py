@@ -211,9 +211,17 @@ def _rest(painter: Painter, lines: Sequence[Line], place: Place, view: WeightsVi
     j, zone = thing
     if zone == "name":
         view.explained = j
-        imgui.set_tooltip(_about(painter, j))
-    elif zone in TOOLTIPS:
-        imgui.set_tooltip(TOOLTIPS[zone])
+    text = _about(painter, j) if zone == "name" else TOOLTIPS.get(zone)
+    if text:
+        _tooltip(painter, text, painter.columns.y(place.line))
+
+
+def _tooltip(painter: Painter, text: str, y: float) -> None:
+    """Draw a tooltip left of the list where there is room, so that the rows below can be read."""
+    left = painter.columns.left - 3 * imgui.get_style().window_padding.x
+    if left - imgui.calc_text_size(text).x > imgui.get_main_viewport().pos.x:
+        imgui.set_next_window_pos(imgui.ImVec2(left, y), imgui.Cond_.always, imgui.ImVec2(1.0, 0.0))
+    imgui.set_tooltip(text)
 
 
 def _about(painter: Painter, j: int) -> str:
@@ -221,6 +229,6 @@ def _about(painter: Painter, j: int) -> str:
     rig, control = painter.rig, painter.control
     low, high = control.limits[j].tolist()
     move = 100 * rig.largest_moves[j] / rig.height
-    lines = [rig.shape_names[j], f"moves up to {move:.2g} % of the face height, limits {low:g} to {high:g}"]
-    lines += [f"should stay at or below {rig.shape_names[b]}" for a, b in control.ties if a == j]
-    return "\n".join([*lines, "Double click: back to 0   Right click: lock, mute, limits"])
+    lines = [rig.shape_names[j], f"Moves up to {move:.2g} % of the face height; limits {low:g} to {high:g}"]
+    lines += [f"Should stay at or below {rig.shape_names[b]}" for a, b in control.ties if a == j]
+    return "\n".join([*lines, "Double click: back to 0", "Right click: lock, mute, solo, limits"])

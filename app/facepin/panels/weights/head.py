@@ -90,9 +90,10 @@ def _gain(
     imgui.set_next_item_width(width)
     gain = 1.0 if view.gain is None else view.gain[1]
     imgui.begin_disabled(not weights.any())
-    _fill(width, gain, scale)
+    at = imgui.get_cursor_screen_pos()
     changed, gain = imgui.drag_float("##gain", gain, GAIN_SPEED / scale, 0.0, MOST_GAIN, "gain %.2f")
     imgui.end_disabled()
+    _fill(at, width, gain, scale)
     imgui.set_item_tooltip("Drag to scale all weights that are not locked\nCtrl+click to type how much")
     if imgui.is_item_activated():
         view.gain = weights, 1.0
@@ -111,14 +112,11 @@ def _gain(
     return CancelEdit() if np.array_equal(final, base) else Edit("Scale the pose", True, weights=final)
 
 
-def _fill(width: float, gain: float, scale: float) -> None:
+def _fill(at: imgui.ImVec2, width: float, gain: float, scale: float) -> None:
     """Draw how far the gain is from 1, which is in the middle."""
-    if gain == 1.0:
-        return
-    at, height = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
+    height = imgui.get_frame_height()
     middle, end = at.x + width / 2, at.x + width * min(gain, MOST_GAIN) / MOST_GAIN
-    imgui.get_window_draw_list().add_rect_filled(
-        ImVec2(min(middle, end), at.y + height - 2 * scale),
-        ImVec2(max(middle, end), at.y + height),
-        packed(ACCENT),
-    )
+    begin, end = min(middle, end) - scale, max(middle, end) + scale
+    ink = packed(TEXT_DIM if gain == 1.0 else ACCENT)
+    corner = ImVec2(end, at.y + height)
+    imgui.get_window_draw_list().add_rect_filled(ImVec2(begin, at.y + height - 2 * scale), corner, ink)

@@ -183,7 +183,9 @@ class Painter:
         inks, at = self.inks, self.columns
         middle = top + at.row / 2
         text_y = middle - imgui.get_font_size() / 2
-        icons.fold(self.draw, at.left + 4 * at.scale, middle, 6 * at.scale, inks.dim, folded=folded)
+        marked = bool(self.marked) and not self.marked.isdisjoint(group.shapes.tolist())
+        ink = inks.mark if marked else inks.dim
+        icons.fold(self.draw, at.left + 4 * at.scale, middle, 6 * at.scale, ink, folded=folded)
         self.draw.add_text(
             ImVec2(at.left + 14 * at.scale, text_y),
             inks.text if active else inks.dim,

@@ -21,9 +21,6 @@ from facepin.panels.weights.view import WeightsView
 from facepin.session.edit import Edit
 from facepin.session.session import Pane
 
-SAMPLES = 60
-"""Names that are measured to find the width of all."""
-
 Wish = Edit | SetControl | CancelEdit | None
 
 
@@ -58,6 +55,8 @@ def weights_panel(
     """
     weights = panes[active].pose.weights
     listing = view.listing(rig)
+    if view.gesture is not None and view.gesture.hand != "typing" and not in_gesture:
+        view.gesture = None  # undone meanwhile, or made a step since another gesture began
     wish: Wish = head(rig, control, weights, view, scale)
     lines = listing.lines(view.arrangement, view.search, view.folded, weights, in_gesture=in_gesture)
     if not lines:
@@ -81,8 +80,8 @@ def _list(
     """Draw the lines that are in sight, and let the hand act on them."""
     at = imgui.get_cursor_screen_pos()
     room = imgui.get_content_region_avail()
-    every = max(1, rig.shape_count // SAMPLES)
-    widest = max((view.elider.width(name) for name in rig.shape_names[::every]), default=0.0)
+    view.elider.follow_font()
+    widest = view.elider.widest(rig.shape_names)
     columns = Columns.fitted(at.x, at.x + room.x - 2 * scale, at.y, widest, scale)
     view.columns = columns
     poses = [pane.pose.weights for pane in panes]

@@ -102,7 +102,10 @@ def restrain(app: App, **changes: object) -> None:
 
 
 @pytest.mark.parametrize("zone", [0.3, "name"])
-def test_a_double_click_on_a_slider_or_on_its_name_resets_it_for_good(app: App, zone: Zone | float) -> None:
+def test_a_double_click_on_a_slider_or_on_its_name_resets_it_in_one_step(
+    app: App, zone: Zone | float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("facepin.panels.weights.hand.CLICK", 10.0)
     pose(app, browInnerUp=0.6, cheekPuff=0.4)
     at = place(app, "browInnerUp", zone)
     click(app, at)
@@ -110,6 +113,17 @@ def test_a_double_click_on_a_slider_or_on_its_name_resets_it_for_good(app: App, 
     assert weight(app, "browInnerUp") == 0
     assert weight(app, "cheekPuff") == 0.4
     assert app.session.undo_label == "Reset browInnerUp"
+    assert app.session.undo()
+    assert weight(app, "browInnerUp") == 0.6
+
+
+def test_a_click_on_a_slider_moves_it_there_at_once_and_for_good(app: App) -> None:
+    click(app, place(app, "browInnerUp", 0.3))
+    assert weight(app, "browInnerUp") == pytest.approx(0.3, abs=0.02)
+    sleep(0.2)
+    app.step(Stirred(), frames=2)
+    assert app.session.undo_label == "Set browInnerUp"
+    assert not app.session.in_gesture
 
 
 def test_a_slider_follows_the_mouse_and_stops_at_its_limits_as_one_undo_step(app: App) -> None:
@@ -179,6 +193,18 @@ def test_a_number_is_typed_beyond_the_limits_and_escape_takes_it_back(
     app.step(Stirred(), frames=5)
     key(app, imgui.Key.escape)
     assert weight(app, "browInnerUp") == 1.25
+
+
+def test_a_press_on_another_slider_ends_the_typing_and_moves_that_one(app: App) -> None:
+    for _ in range(2):
+        click(app, place(app, "browInnerUp", "number"))
+    imgui.get_io().add_input_characters_utf8("0.7")
+    app.step(Stirred(), frames=3)
+    app.drag(place(app, "cheekPuff", 0.2), place(app, "cheekPuff", 0.5), moves=3)
+    assert weight(app, "browInnerUp") == 0.7
+    assert weight(app, "cheekPuff") == pytest.approx(0.5, abs=0.02)
+    assert app.session.undo_label == "Set cheekPuff" and app.session.undo()
+    assert app.session.undo_label == "Set browInnerUp"
 
 
 def test_arrow_keys_walk_and_move_the_slider_and_a_held_key_is_one_step(app: App) -> None:

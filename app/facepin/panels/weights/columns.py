@@ -32,9 +32,10 @@ class Columns:
 
     @staticmethod
     def fitted(left: float, right: float, top: float, widest: float, scale: float) -> "Columns":
-        """Return columns in which names have what the widest needs, but not more than the sliders."""
+        """Return columns in which names have what the widest needs and icons too, but sliders have enough."""
         room = right - left - (INSET + GAP + NUMBER) * scale
-        return Columns(left, right, top, min(widest + 2 * scale, 0.56 * room), scale)
+        wanted = max(widest + ICON * scale, (len(ICONS) + 2) * ICON * scale)
+        return Columns(left, right, top, min(wanted, 0.56 * room), scale)
 
     @cached_property
     def row(self) -> float:

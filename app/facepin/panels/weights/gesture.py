@@ -3,13 +3,17 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from imgui_bundle import imgui
+
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
-from facepin.panels.requests import CancelEdit
+from facepin.panels.requests import CancelEdit, SetControl
 from facepin.session.edit import Edit
 from facepin.session.sliding import slid, within
 
+Wish = Edit | SetControl | CancelEdit | None
+"""What the panel asks for."""
 Hand = Literal["mouse", "wheel", "keys", "typing"]
 
 STEP, LEAP = 0.01, 0.1
@@ -30,8 +34,12 @@ class Gesture:
     """Lowest and highest weight that the slider shows; stays while it is moved, so that nothing slips."""
     reach: float
     """Where the hand is, which may be further than the slider goes."""
+    began: float
+    """When, in imgui's seconds."""
     digits: int = 2
     """Decimals that the mouse sets."""
+    moved: bool = False
+    """Whether the mouse has moved since."""
 
     @property
     def start(self) -> float:
@@ -52,3 +60,8 @@ class Gesture:
             return CancelEdit()
         label = f"Set {rig.shape_names[self.shape]}"
         return Edit(label, final, weights=slid(self.base, {self.shape: weight}))
+
+
+def begun(hand: Hand, shape: int, weights: Floats, span: tuple[float, float]) -> Gesture:
+    """Return a gesture that begins now, from weights (k,)."""
+    return Gesture(hand, shape, weights, span, float(weights[shape]), imgui.get_time())

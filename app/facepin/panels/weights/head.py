@@ -7,9 +7,10 @@ from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.measures import active as active_shapes
 from facepin.core.rig import Rig
-from facepin.panels.requests import CancelEdit, SetControl
+from facepin.panels.requests import CancelEdit
 from facepin.panels.theme import ACCENT, TEXT_DIM, packed
 from facepin.panels.weights import icons
+from facepin.panels.weights.gesture import Wish
 from facepin.panels.weights.listing import ARRANGEMENTS
 from facepin.panels.weights.restraints import FLAGS, Flag, flags_of, freed
 from facepin.panels.weights.view import WeightsView
@@ -27,11 +28,9 @@ MEANINGS: dict[Flag, str] = {
 ImVec2 = imgui.ImVec2
 
 
-def head(
-    rig: Rig, control: ShapeControl, weights: Floats, view: WeightsView, scale: float
-) -> Edit | SetControl | CancelEdit | None:
+def head(rig: Rig, control: ShapeControl, weights: Floats, view: WeightsView, scale: float) -> Wish:
     """Draw two lines above the list; return what the user changes in this frame, or None."""
-    edit: Edit | SetControl | CancelEdit | None = None
+    wish: Wish = None
     button = imgui.calc_text_size("Reset all").x + 2 * imgui.get_style().frame_padding.x
     gap = imgui.get_style().item_spacing.x
     order = imgui.calc_text_size("by weight").x + 3 * imgui.get_frame_height()
@@ -47,7 +46,7 @@ def head(
     imgui.same_line()
     imgui.begin_disabled(not weights.any())
     if imgui.button("Reset all"):
-        edit = Edit("Reset all weights", True, weights=reset(control, weights))
+        wish = Edit("Reset all weights", True, weights=reset(control, weights))
     imgui.end_disabled()
 
     imgui.align_text_to_frame_padding()
@@ -58,8 +57,8 @@ def head(
         if count:
             imgui.same_line()
             if _counter(flag, count, scale):
-                edit = freed(control, flag)
-    return _gain(control, weights, view, scale) or edit
+                wish = freed(control, flag)
+    return _gain(control, weights, view, scale) or wish
 
 
 def _counter(flag: Flag, count: int, scale: float) -> bool:

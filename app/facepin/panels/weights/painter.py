@@ -16,7 +16,6 @@ from facepin.panels.weights.text import Elider
 
 VISIBLE = 0.005
 """A weight further from zero than this is emphasised: its number shows it."""
-SLACK = 1e-6
 ImVec2 = imgui.ImVec2
 
 
@@ -76,8 +75,14 @@ class Painter:
     def span(self, j: int) -> tuple[float, float]:
         """Return the weights from end to end of a slider: what the file and the user allow, and what is."""
         (low, high), (least, most) = self.rig.limits[j].tolist(), self.control.limits[j].tolist()
+        low, high = min(low, least), max(high, most)
         values = [float(weights[j]) for weights in self.weights]
-        return min(low, least, *values), max(high, most, *values)
+        smallest, largest = min(values), max(values)
+        # What nobody can see does not open the range up.
+        return (
+            smallest if smallest < low - VISIBLE else low,
+            largest if largest > high + VISIBLE else high,
+        )
 
     def row(self, top: float, j: int, span: tuple[float, float], zone: Zone | None, *, focused: bool) -> None:
         """Draw a shape's name, slider and number.
@@ -142,9 +147,9 @@ class Painter:
         begin, end = at.slider
         draw.add_rect_filled(ImVec2(begin, above), ImVec2(end, below), inks.trough, 3 * at.scale)
         low, high = self.limits[j].tolist()
-        if low > span[0] + SLACK:
+        if low > span[0] + VISIBLE:
             self._limit(begin, at.x(low, span), above, below, at.x(low, span))
-        if high < span[1] - SLACK:
+        if high < span[1] - VISIBLE:
             self._limit(at.x(high, span), end, above, below, at.x(high, span))
         zero = at.x(0.0, span)
         step = (below - above) / len(self.weights)
@@ -176,9 +181,7 @@ class Painter:
         )
         self.draw.add_rect_filled(ImVec2(mark - half, above), ImVec2(mark + half, below), self.inks.dim)
 
-    def header(
-        self, top: float, group: Group, active: int, zone: Zone | None, *, folded: bool, hovered: bool
-    ) -> None:
+    def header(self, top: float, group: Group, active: int, zone: Zone | None, *, folded: bool) -> None:
         """Draw the header of a group, with how many of its shapes are active."""
         inks, at = self.inks, self.columns
         middle = top + at.row / 2
@@ -203,7 +206,7 @@ class Painter:
         )
         for place, name in enumerate(ICONS):
             share = self._share(group, name)
-            if share or hovered:
+            if share or zone is not None:
                 ink = inks.text if name == zone else inks.mark if share == 1 else inks.faint
                 icon = (icons.reset, icons.mute, icons.lock)[place]
                 icon(self.draw, at.icon(place), middle, 6 * at.scale, ink)

@@ -8,20 +8,17 @@ from imgui_bundle import imgui
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
-from facepin.panels.requests import CancelEdit, SetControl
 from facepin.panels.theme import ACCENT, pane_colours
 from facepin.panels.weights.columns import INSET, Columns
-from facepin.panels.weights.hand import Place, hand
+from facepin.panels.weights.gesture import Wish
+from facepin.panels.weights.hand import hand
 from facepin.panels.weights.head import head
 from facepin.panels.weights.listing import Group, Line
 from facepin.panels.weights.menu import group_menu, row_menu
 from facepin.panels.weights.painter import Painter, inks
 from facepin.panels.weights.typing_field import typing_field
 from facepin.panels.weights.view import WeightsView
-from facepin.session.edit import Edit
 from facepin.session.session import Pane
-
-Wish = Edit | SetControl | CancelEdit | None
 
 
 def weights_panel(
@@ -104,25 +101,19 @@ def _list(
     place, wish = hand(painter, lines, poses[active], view)
     first = max(columns.line(imgui.get_window_pos().y), 0)
     count = ceil(imgui.get_window_height() / columns.row) + 1
+    has_keyboard = imgui.is_window_focused()
     tallies = view.listing(rig).active(view.arrangement, poses[active])
     for number in range(first, min(first + count, len(lines))):
-        _line(
-            painter, lines[number], columns.y(number), place if place.line == number else None, tallies, view
-        )
+        line, top = lines[number], columns.y(number)
+        zone = place.zone if place.number == number else None
+        if isinstance(line, Group):
+            folded = line.name in view.folded and not view.search
+            painter.header(top, line, tallies[line.name], zone, folded=folded)
+        else:
+            gesture = view.gesture
+            span = gesture.span if gesture is not None and gesture.shape == line else painter.span(line)
+            painter.row(top, line, span, zone, focused=has_keyboard and line == view.focus)
     return typing_field(painter, lines, view) or wish
-
-
-def _line(
-    painter: Painter, line: Line, top: float, place: Place | None, tallies: dict[str, int], view: WeightsView
-) -> None:
-    zone = place.zone if place else None
-    if isinstance(line, Group):
-        folded = line.name in view.folded and not view.search
-        painter.header(top, line, tallies[line.name], zone, folded=folded, hovered=place is not None)
-        return
-    gesture = view.gesture
-    span = gesture.span if gesture is not None and gesture.shape == line else painter.span(line)
-    painter.row(top, line, span, zone, focused=line == view.focus)
 
 
 def _menu(rig: Rig, control: ShapeControl, weights: Floats, view: WeightsView) -> Wish:

@@ -24,10 +24,8 @@ def typing_field(painter: Painter, lines: Sequence[Line], view: WeightsView) -> 
     y = columns.y(lines.index(gesture.shape)) + (columns.row - imgui.get_frame_height()) / 2
     imgui.set_cursor_screen_pos(imgui.ImVec2(begin, y))
     imgui.set_next_item_width(columns.right - begin)
-    begins = gesture.digits > 0
-    if begins:
+    if gesture.began == imgui.get_time():
         imgui.set_keyboard_focus_here()
-        gesture.digits = 0
     changed, value = imgui.input_double(
         "##typed", gesture.reach, 0.0, 0.0, "%.4g", imgui.InputTextFlags_.auto_select_all
     )

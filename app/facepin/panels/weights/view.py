@@ -27,6 +27,8 @@ class WeightsView:
     """Shapes that move the vertex under the mouse."""
     gesture: Gesture | None = None
     """The slider in the user's hand."""
+    late_press: bool = False
+    """A press ended the typing of a number, and is still to be acted on."""
     gain: tuple[Floats, float] | None = None
     """While the gain is moved: the weights (k,) at the press, and the gain."""
     menu: Line | None = None

@@ -129,8 +129,9 @@ def test_info_in_words_and_as_json(small: Path, capsys: pytest.CaptureFixture[st
     assert main(["info", str(small), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert set(facts) == {
-        "name", "vertices", "edges", "faces", "triangles", "shapes", "parts", "warnings",
+        "name", "vertices", "edges", "faces", "triangles", "shapes", "combinations", "parts", "warnings",
     }  # fmt: skip
+    assert facts["combinations"] == 0
     assert facts["vertices"] == 81
     assert facts["triangles"] == 128
     assert facts["shapes"] == ["shape0", "shape1", "shape2", "shape3"]

@@ -1,6 +1,7 @@
 """Overlays of the panes of a session: measured and made only when asked for, and once."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import moderngl
 import numpy as np
@@ -126,3 +127,21 @@ def final_picture(gl: moderngl.Context, weight: float) -> np.ndarray:
     picture = shown.draw(PaneView(), PaneView())
     shown.release()
     return picture
+
+
+def test_muting_shows_at_once_and_costs_no_upload_where_it_changes_nothing(shown: Shown) -> None:
+    free = shown.session.control
+    stretched = shown.stage.positions(0)
+    shown.session.set_control("Lock", replace(free, locked=np.ones(1, bool)))
+    assert not shown.stage.update()
+    assert shown.stage.positions(0) is stretched
+    shown.session.set_control("Mute", replace(free, muted=np.ones(1, bool)))
+    assert shown.stage.update()
+    assert not shown.stage.update()
+    for pane in (0, 1):
+        np.testing.assert_array_equal(shown.stage.positions(pane), shown.rig.neutral)
+        assert shown.stage.appraise(pane).far_motion == 0
+    assert shown.session.pose.weights[0] == 0.3
+    shown.session.undo()
+    assert shown.stage.update()
+    np.testing.assert_array_equal(shown.stage.positions(0), stretched)

@@ -30,8 +30,10 @@ def test_a_slider_stops_at_its_limits_and_comes_back_from_beyond() -> None:
     assert within(held, WEIGHTS, 1, -0.1) == -0.1
 
 
-def test_a_tie_does_not_stop_a_hand() -> None:
-    assert within(control(ties=((0, 3),)), WEIGHTS, 0, 0.9) == 0.9
+def test_a_tie_stops_a_hand() -> None:
+    tied = control(ties=((3, 0), (2, 0)))
+    assert within(tied, WEIGHTS, 3, 0.9) == 0.5
+    assert within(tied, WEIGHTS, 2, 1.3) == 1.3, "from beyond it comes back"
 
 
 def test_the_gain_scales_within_limits_and_leaves_locked_weights() -> None:

@@ -190,3 +190,26 @@ def test_every_answer_within_limits_obeys_the_tie_beside_locks(key: str, locks: 
             assert weights[1] <= weights[2] + 1e-12
             np.testing.assert_array_equal(weights[locks], start[locks])
             assert ((weights >= -1e-12) & (weights <= 1 + 1e-12)).all()
+
+
+@pytest.mark.parametrize("key", ["pseudo_inverse", "sparse", "bounded"])
+def test_the_formulas_know_of_no_tie_unless_limits_are_asked_for(key: str) -> None:
+    closed = RIG.evaluate(np.array([0, 0.8, 0, 0, 0])).astype(float)
+    pins = tuple(replace(pin, goal=tuple(closed[pin.vertex].tolist())) for pin in PINS)
+    bare, kept = (PinSolver(RIG, choose(key, keep_limits=keep)).solve(pins, np.zeros(5)) for keep in (0, 1))
+    assert bare.weights[1] > bare.weights[2] + 0.1
+    assert kept.weights[1] <= kept.weights[2] + 1e-12
+
+
+def test_a_drag_over_the_tie_and_back_leaves_no_trace() -> None:
+    solver = PinSolver(RIG, choose("bounded"), TIED)
+    closed = RIG.evaluate(np.array([0, 0.8, 0, 0, 0])).astype(float)
+
+    def at(share: float) -> np.ndarray:
+        goals = RIG.neutral + share * (closed - RIG.neutral)
+        pins = tuple(replace(pin, goal=tuple(goals[pin.vertex].tolist())) for pin in PINS)
+        return solver.solve(pins, np.zeros(5)).weights
+
+    there = [at(share) for share in np.linspace(-1, 1, 21)]
+    back = [at(share) for share in np.linspace(1, -1, 21)]
+    np.testing.assert_allclose(there, back[::-1], atol=1e-8)

@@ -317,6 +317,18 @@ def test_limits_are_obeyed_by_the_mouse_and_a_weight_beyond_may_only_come_back(a
     assert weight(app, "browInnerUp") == 0.6
 
 
+def test_a_hand_stops_at_the_tie_and_a_weight_beyond_it_stays(app: App) -> None:
+    pose(app, jawOpen=0.4)
+    app.desk.view.weights.search = "mouthclose"
+    app.step(Stirred(), frames=2)
+    app.drag(place(app, "mouthClose", 0.05), place(app, "mouthClose", 0.9), moves=3)
+    assert weight(app, "mouthClose") == pytest.approx(0.4)
+    assert app.session.undo_label == "Set mouthClose"
+    pose(app, jawOpen=0.4, mouthClose=0.9)
+    app.step(PointerMoved(*place(app, "mouthClose", 0.5)), frames=3)
+    assert weight(app, "mouthClose") == 0.9
+
+
 def test_the_gain_scales_all_that_is_not_locked_as_one_step(app: App) -> None:
     pose(app, browInnerUp=0.5, browDownLeft=0.4, cheekPuff=0.2)
     click(app, place(app, "cheekPuff", "lock"))

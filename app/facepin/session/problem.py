@@ -83,7 +83,8 @@ class PinProblem:
         place = {j: at for at, j in enumerate(free.tolist())}
         ties = tuple((place[a], place[b]) for a, b in ties if a in place and b in place)
         locality = None if locality is None else locality[free]
-        system = PinSystem(slopes[:, free], limits, rig.scale, sizes[free], locality, ties)
+        guess = weights[free]
+        system = PinSystem(slopes[:, free], limits, rig.scale, sizes[free], locality, ties, guess)
         return LinearProblem(system, free, self.rows @ rig.amounts(heard) - system.rows @ heard[free])
 
     def moves(self, weights: Floats) -> Floats:

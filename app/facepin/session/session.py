@@ -194,7 +194,7 @@ class Session:
             for pane in before.panes
         ]
         pins = snapped(self.rig, poses[self.active], before.control).pins
-        self.message = self._locks_in_the_way(before, zero)
+        self._tell_locks(before, zero)
         panes = tuple(
             pane.by_hand(pose.with_pins(pins)) for pane, pose in zip(before.panes, poses, strict=True)
         )
@@ -263,7 +263,7 @@ class Session:
                 )
             current = poses[self.active].weights
             weights = control.keeping_locked(edit.weights, current)
-            self.message = self._locks_in_the_way(before, edit.weights)
+            self._tell_locks(before, edit.weights)
             if self.message and edit.pins is None and np.array_equal(weights, current):
                 raise FacepinError(self.message)
             pose = poses[self.active].with_weights(weights)
@@ -281,13 +281,11 @@ class Session:
             for pane, pose in zip(panes, poses, strict=True)
         )
 
-    def _locks_in_the_way(self, work: Work, weights: Floats) -> str:
-        """Return which locks keep the active pane from these weights (k,), as a sentence; "" for none."""
+    def _tell_locks(self, work: Work, weights: Floats) -> None:
+        """Say in `message` which locks keep the active pane from these weights (k,), if any do."""
         broken = np.flatnonzero(work.control.breaks_lock(weights, work.panes[self.active].pose.weights))
-        if not len(broken):
-            return ""
         names = listed([self.rig.shape_names[j] for j in broken])
-        return f"{names} {'is' if len(broken) == 1 else 'are'} locked"
+        self.message = f"{names} {'is' if len(broken) == 1 else 'are'} locked" if names else ""
 
     def _dragged(self, panes: tuple[Pane, ...], poses: Sequence[Pose]) -> tuple[Pane, ...]:
         """Return the panes solved for new pins; where one of several solvers fails, its weights stay.

@@ -20,10 +20,9 @@ def slid(weights: Floats, values: Mapping[int, float]) -> Floats:
 def within(control: ShapeControl, weights: Floats, shape: int, value: float) -> float:
     """Return the value that a slider stops at on its way from weights (k,) to `value`.
 
-    These are the limits of the shape; where the weight was beyond them, it can go back but not further out.
-    Ties to other shapes don't stop a hand: it may mean to move the other slider next.
+    These are its limits and ties; where the weight was beyond them, it can go back but not further out.
     """
-    low, high = (float(limit) for limit in control.limits[shape])
+    low, high = (float(limit) for limit in control.limits_at(weights)[shape])
     start = float(weights[shape])
     return min(max(value, min(low, start)), max(high, start))
 

@@ -1,7 +1,7 @@
 """From pins to weights: puts a rig's pins before a solver and reads its answer back."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any
 
@@ -62,10 +62,17 @@ class PinSolver:
     """Solves the pins of one pane; keeps what depends on the pins' places only, for all frames of a drag."""
 
     def __init__(self, rig: Rig, choice: SolverChoice, control: ShapeControl | None = None) -> None:
-        """Use the shapes that `control` leaves free, within its limits; the rig's own when left out."""
+        """Use the shapes that `control` leaves free, within its limits.
+
+        Without one these are all shapes within the rig's own limits, as the formulas have it; ties count
+        where the choice is to keep within limits.
+        """
         self.choice = choice
         self._rig = rig
-        self._control = ShapeControl.of(rig) if control is None else control
+        if control is None:
+            control = ShapeControl.of(rig)
+            control = control if choice.keep_limits else replace(control, ties=())
+        self._control = control
         self._places: object = None
         self._start: Floats | None = None
         self._prepared: _Prepared | None = None

@@ -69,7 +69,7 @@ def prepare_boxed(system: PinSystem, ridge: float) -> Minimise:
     ridge = max(ridge, SMALLEST_RIDGE * float(squares.max(initial=0.0)))
     face = _Face(rows, ridge)
     own = squares + ridge
-    last: Floats | None = None
+    last = None if system.guess is None else system.guess[seen]
 
     def minimise(displacement: Floats, start: Floats, price: Price) -> Minimum:
         nonlocal last

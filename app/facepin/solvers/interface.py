@@ -26,6 +26,8 @@ class PinSystem:
     """(k,) share of each shape that happens near the pins, 0..1, for solvers with a setting `radius` > 0."""
     ties: tuple[tuple[int, int], ...] = ()
     """Pairs (a, b) of shapes: the weight of a may be at most that of b.  For solvers that obey limits."""
+    guess: Floats | None = None
+    """(k,) weights that an answer is likely to be near to, for solvers that search; None: the start."""
 
 
 @dataclass(frozen=True, eq=False)

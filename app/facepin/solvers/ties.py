@@ -7,6 +7,7 @@ is convex and has but one: no approximation is made, and where no tie is in the 
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -29,10 +30,11 @@ def prepare_tied(system: PinSystem, ridge: float) -> Minimise:
     tied, other = np.array(ties).T
     # The largest second derivative along one weight tells where to look for μ.
     curvature = float(np.einsum("ij,ij->j", system.rows, system.rows).max(initial=0.0)) + ridge
+    known = [_Known(0.0, -1.0 / curvature if curvature > 0 else -1.0) for _ in ties]
 
     def obeying(displacement: Floats, start: Floats, price: Price) -> Minimum:
         slack = np.maximum(start[tied] - start[other], 0.0)
-        prices = np.zeros(len(ties))
+        prices = np.array([each.price for each in known])
         steps = 0
         found: Minimum
 
@@ -51,7 +53,7 @@ def prepare_tied(system: PinSystem, ridge: float) -> Minimise:
         for _ in range(MOST_SWEEPS):
             before = prices.copy()
             for tie in range(len(ties)):
-                _close(partial(gap, tie), curvature)
+                known[tie] = _close(partial(gap, tie), known[tie])
             if len(ties) == 1 or np.abs(prices - before).max() <= CLOSE * curvature:
                 break
         weights = found.weights
@@ -62,28 +64,35 @@ def prepare_tied(system: PinSystem, ridge: float) -> Minimise:
     return obeying
 
 
-def _close(gap: Callable[[float], float], curvature: float) -> None:
-    """Find the least price ≥ 0 at which a gap, falling with it, is at most 0; ask for that one last."""
-    low, above = 0.0, gap(0.0)
-    if above <= CLOSE:
-        return
-    high = above * curvature
-    while (below := gap(high)) > CLOSE and high < 1e12 * curvature:
-        low, above, high = high, below, 4.0 * high
-    if abs(below) <= CLOSE:
-        return
-    # The gap is made of straight pieces: the false position, halving an end that stays (Illinois).
-    side = 0
-    for _ in range(MOST_TRIES):
-        middle = (low * below - high * above) / (below - above)
-        value = gap(middle)
-        if abs(value) <= CLOSE or high - low <= 1e-15 * high:
-            return
-        if value > 0:
-            low, above = middle, value
-            below = 0.5 * below if side > 0 else below
-            side = 1
-        else:
-            high, below = middle, value
-            above = 0.5 * above if side < 0 else above
-            side = -1
+@dataclass(frozen=True)
+class _Known:
+    """What is known of a tie from the frame before: where to begin."""
+
+    price: float
+    slope: float
+    """How its gap changes with its price, < 0."""
+
+
+def _close(gap: Callable[[float], float], known: _Known) -> _Known:
+    """Find the least price ≥ 0 at which a gap, falling with it, is at most 0; ask for that one last.
+
+    The gap is made of straight pieces, so the secant is right once both its ends are on the right piece.
+    Where it leads out of what is known, or every few times in case it creeps, the middle is taken instead.
+    """
+    low, high = -1.0, np.inf  # the gap is open at `low` (if that is ≥ 0) and closed at `high`
+    price, slope = known.price, known.slope
+    value = gap(price)
+    for tries in range(1, MOST_TRIES):
+        if abs(value) <= CLOSE or (price == 0.0 and value < 0.0):
+            break
+        low, high = (price, high) if value > 0 else (low, price)
+        wanted = max(price - value / slope, 0.0)
+        if not low < wanted < high or (tries % 4 == 0 and high < np.inf):
+            wanted = 0.5 * (max(low, 0.0) + high) if high < np.inf else 4.0 * price
+        if wanted == price:
+            break
+        before = price, value
+        price, value = wanted, gap(wanted)
+        secant = (value - before[1]) / (price - before[0])
+        slope = secant if secant < 0.0 else slope
+    return _Known(price, slope)

@@ -43,5 +43,8 @@ def _about(painter: Painter, j: int) -> str:
     low, high = control.limits[j].tolist()
     move = percent(float(rig.largest_moves[j]), rig.height)
     lines = [rig.shape_names[j], f"Moves up to {move:.2g} % of the face height; limits {low:g} to {high:g}"]
-    lines += [f"Should stay at or below {rig.shape_names[b]}" for a, b in control.ties if a == j]
+    most = painter.limits[j, 1]
+    lines += [
+        f"Goes as far as {rig.shape_names[b]} does, to {most:.2f} now" for a, b in control.ties if a == j
+    ]
     return "\n".join([*lines, "Double click: back to 0", "Right click: lock, mute, solo, limits"])

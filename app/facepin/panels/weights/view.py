@@ -45,6 +45,6 @@ class WeightsView:
         """Return the lines of a rig; another rig begins with nothing in hand."""
         if self._listing is None or self._listing.rig is not rig:
             self._listing = Listing(rig)
-            self.focus = self.explained = self.gesture = self.gain = None
+            self.focus = self.explained = self.gesture = self.gain = self.menu = None
             self.marked = frozenset()
         return self._listing

@@ -8,6 +8,7 @@ import pytest
 from driver import App, running
 from facepin.panels.requests import Command, PairShapes
 from facepin.session.edit import Edit
+from facepin.session.mirroring import linked_weights
 
 
 def pose(app: App, **weights: float) -> np.ndarray:
@@ -104,3 +105,18 @@ def test_a_pin_makes_its_twin_and_both_are_dragged_and_removed_as_one(app: App) 
     x, y = app.pixel_of(corner)
     app.drag((x, y), (x + 15, y - 15))
     assert len(app.session.pose.pins) == 1
+
+
+def test_sliders_of_left_and_right_are_linked_while_symmetry_is_on(app: App) -> None:
+    names = app.session.rig.shape_names
+    pose(app, mouthSmileLeft=0.2, eyeBlinkRight=0.7)
+    before, mirror = app.session.pose.weights, app.session.mirror
+    smile = names.index("mouthSmileLeft")
+    changed = before.copy()
+    changed[smile] = 0.6
+    linked = linked_weights(mirror, before, changed)
+    assert linked[mirror.shapes[smile]] == linked[smile] == 0.6
+    others = np.delete(np.arange(len(names)), [smile, mirror.shapes[smile]])
+    np.testing.assert_array_equal(linked[others], before[others])
+    # Where both were changed, as by a gain, nothing is exchanged.
+    np.testing.assert_array_equal(linked_weights(mirror, before, 0.5 * before), 0.5 * before)

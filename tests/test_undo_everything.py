@@ -41,6 +41,7 @@ ASK_FOR_A_FILE = {
 }
 NOT_HERE = {
     Command.SCREENSHOT,  # draws
+    Command.SCREENSHOT_PINS,
     Command.SAVE_CHART,
     Command.OPEN_BUILTIN,  # begins another session
     Command.QUIT,
@@ -120,6 +121,12 @@ MAKERS: dict[type, Maker] = {
     requests.PairShapes: lambda random, _: requests.PairShapes(
         int(random.integers(RIG.shape_count)), [None, *range(RIG.shape_count)][random.integers(5)]
     ),
+    requests.SetControl: lambda random, session: requests.SetControl(
+        "Mute",
+        dataclasses.replace(session.control, muted=random.integers(0, 3, RIG.shape_count) == 0),
+        final=bool(random.integers(2)),
+    ),
+    requests.CancelEdit: lambda *_: requests.CancelEdit(),
     requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),
 }
 """How a request with something to say is made up."""
@@ -130,6 +137,7 @@ ELSEWHERE = {
     requests.RestoreWork,
     requests.DiscardWork,
     requests.Choose,
+    requests.ShadeAs,
     requests.CancelJob,
     *get_args(LibraryRequest),
 }

@@ -139,6 +139,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             desk.view.weights,
             scale,
             theme,
+            lambda: session.mirror,
             in_gesture=session.in_gesture,
         )
     imgui.end()

@@ -24,7 +24,7 @@ def movers(rig: Rig, vertex: int) -> list[tuple[int, float]]:
 
     Those that move it by less than `NOTABLE` of the strongest one are left out.
     """
-    lengths = np.linalg.norm(rig.rows_at([vertex]), axis=0)
+    lengths = np.linalg.norm(rig.rows_at([vertex])[:, : rig.shape_count], axis=0)
     least = max(NOTABLE * lengths.max(initial=0.0), np.finfo(np.float64).tiny)
     strongest = np.argsort(-lengths, kind="stable")[: np.count_nonzero(lengths >= least)]
     return [(int(j), float(lengths[j])) for j in strongest]

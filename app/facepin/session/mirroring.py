@@ -89,11 +89,15 @@ def twins_of(mirror: Mirror, vertices: Iterable[int]) -> frozenset[int]:
 
 
 def linked_weights(mirror: Mirror, before: Floats, after: Floats) -> Floats:
-    """Let the twins of weights (k,) that an edit changed take the same values, where it left them alone."""
+    """Return weights (k,) where the twin of the only one that an edit changed takes the same value.
+
+    An edit of several (a gain, a reset) knows what it does, and stays as it is.
+    """
+    changed = np.flatnonzero(before != after)
+    if len(changed) != 1 or mirror.shapes[changed[0]] < 0:
+        return after
     result = np.array(after, np.float64)
-    changed = before != after
-    leading = np.flatnonzero(changed & (mirror.shapes >= 0) & ~changed[mirror.shapes])
-    result[mirror.shapes[leading]] = after[leading]
+    result[mirror.shapes[changed]] = after[changed]
     return result
 
 

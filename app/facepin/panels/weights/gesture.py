@@ -8,11 +8,11 @@ from imgui_bundle import imgui
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
-from facepin.panels.requests import CancelEdit, SetControl
+from facepin.panels.requests import CancelEdit, PairShapes, SetControl
 from facepin.session.edit import Edit
 from facepin.session.sliding import slid, within
 
-Wish = Edit | SetControl | CancelEdit | None
+Wish = Edit | SetControl | CancelEdit | PairShapes | None
 """What the panel asks for."""
 Hand = Literal["mouse", "wheel", "keys", "typing"]
 

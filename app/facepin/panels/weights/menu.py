@@ -1,22 +1,30 @@
 """The menus of a shape and of a group in the weights panel."""
 
+from collections.abc import Callable
+
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
+from facepin.core.mirror import Mirror
 from facepin.core.rig import Rig
 from facepin.panels.overlays import close_on_escape
-from facepin.panels.requests import SetControl
+from facepin.panels.requests import PairShapes, SetControl
 from facepin.panels.weights.listing import Group
 from facepin.panels.weights.restraints import FLAGS, flags_of, limited, toggled
 from facepin.session.edit import Edit
 from facepin.session.sliding import reset, slid
 
+Twins = Callable[[], Mirror]
+"""Tells left from right; asked only when that is to be shown, since it may have to be found out."""
 
-def row_menu(rig: Rig, control: ShapeControl, weights: Floats, j: int) -> Edit | SetControl | None:
+
+def row_menu(
+    rig: Rig, control: ShapeControl, weights: Floats, j: int, twins: Twins
+) -> Edit | SetControl | PairShapes | None:
     """Draw the inside of the menu of a shape; return what the user changes, or None."""
     name = rig.shape_names[j]
-    asked: Edit | SetControl | None = None
+    asked: Edit | SetControl | PairShapes | None = None
     close_on_escape()
     imgui.text_disabled(name)
     imgui.separator()
@@ -38,6 +46,24 @@ def row_menu(rig: Rig, control: ShapeControl, weights: Floats, j: int) -> Edit |
     differ = own != control.limits[j].tolist()
     if imgui.menu_item_simple(f"Limits of the rig: {own[0]:g} to {own[1]:g}", enabled=differ):
         asked = limited(control, j, own, name)
+    imgui.separator()
+    if imgui.begin_menu("Twin on the other side"):
+        asked = _twin_menu(rig, int(twins().shapes[j]), j) or asked
+        imgui.end_menu()
+    return asked
+
+
+def _twin_menu(rig: Rig, twin: int, j: int) -> PairShapes | None:
+    """Draw which shape does the same on the other side of the face; return the user's choice, or None."""
+    asked: PairShapes | None = None
+    if imgui.menu_item_simple("None", selected=twin < 0) and twin >= 0:
+        asked = PairShapes(j, None)
+    if imgui.menu_item_simple("Itself: it moves both sides", selected=twin == j) and twin != j:
+        asked = PairShapes(j, j)
+    imgui.separator()
+    for other, title in enumerate(rig.shape_names):
+        if other != j and imgui.menu_item_simple(title, selected=other == twin) and other != twin:
+            asked = PairShapes(j, other)
     return asked
 
 

@@ -14,7 +14,7 @@ from facepin.panels.weights.gesture import Wish
 from facepin.panels.weights.hand import hand
 from facepin.panels.weights.head import head
 from facepin.panels.weights.listing import Group, Line
-from facepin.panels.weights.menu import group_menu, row_menu
+from facepin.panels.weights.menu import Twins, group_menu, row_menu
 from facepin.panels.weights.painter import Painter, inks
 from facepin.panels.weights.typing_field import typing_field
 from facepin.panels.weights.view import WeightsView
@@ -29,6 +29,7 @@ def weights_panel(
     view: WeightsView,
     scale: float,
     theme: Theme,
+    twins: Twins,
     *,
     in_gesture: bool,
 ) -> Wish:
@@ -50,6 +51,8 @@ def weights_panel(
         imgui units per pixel of a 1x screen.
     theme : Theme
         Its colours.
+    twins : callable
+        Tells left from right.
     in_gesture : bool
         Whether a drag or a slider is being moved.
     """
@@ -65,7 +68,7 @@ def weights_panel(
     if imgui.begin_child("rows"):
         wish = _list(rig, control, panes, active, view, scale, theme, lines) or wish
     imgui.end_child()
-    return _menu(rig, control, weights, view) or wish
+    return _menu(rig, control, weights, view, twins) or wish
 
 
 def _list(
@@ -121,7 +124,7 @@ def _list(
     return typing_field(painter, lines, view) or wish
 
 
-def _menu(rig: Rig, control: ShapeControl, weights: Floats, view: WeightsView) -> Wish:
+def _menu(rig: Rig, control: ShapeControl, weights: Floats, view: WeightsView, twins: Twins) -> Wish:
     """Draw the menu of the line that was clicked with the right button, while it is open."""
     if view.menu_opens:
         imgui.open_popup("line menu")
@@ -132,6 +135,6 @@ def _menu(rig: Rig, control: ShapeControl, weights: Floats, view: WeightsView) -
     if isinstance(view.menu, Group):
         wish: Wish = group_menu(control, weights, view.menu)
     else:
-        wish = row_menu(rig, control, weights, view.menu)
+        wish = row_menu(rig, control, weights, view.menu, twins)
     imgui.end_popup()
     return wish

@@ -92,7 +92,8 @@ class Shaders:
             made.repeat_x, made.repeat_y = texture.repeats
             made.build_mipmaps()
             made.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
-            made.anisotropy = 8.0
+            if self._ctx.max_anisotropy > 1:
+                made.anisotropy = min(8.0, float(self._ctx.max_anisotropy))
             self._pictures[texture] = made
         return self._pictures[texture]
 

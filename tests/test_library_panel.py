@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -225,7 +226,6 @@ def test_save_asks_for_name_and_tags_in_the_panel(rig: Path, tmp_path: Path) -> 
         assert titles(app) == ["Grin"]
         assert not app.desk.view.library.saving
         assert str(tmp_path) in app.desk.message
-        assert app.desk.is_saved
         # Esc gives up.
         app.ask(Command.SAVE_TO_LIBRARY)
         app.step(PointerMoved(5, 5), frames=4)
@@ -240,7 +240,7 @@ def test_names_order_and_removal_are_undone_and_redone_with_their_files(rig: Pat
         app.ask(LabelPose("Smile", " Grin\n", ("happy",)))
         assert titles(app) == ["Grin", "Frown", "Blink"]
         assert app.session.undo_label == "Rename Smile"
-        assert app.desk.is_saved  # the pose on the face is none the less saved
+        assert app.desk.keeper.is_saved(app.session)  # the pose on the face is none the less saved
         app.ask(MovePose("Blink", "Smile"))
         assert titles(app) == ["Blink", "Grin", "Frown"]
         app.ask(RemovePoses(("Smile", "Frown")))
@@ -307,6 +307,20 @@ def test_two_selected_poses_are_compared(rig: Path, tmp_path: Path) -> None:
         assert app.session.work is before
         click(app, "Smile", KEY.mod_ctrl)
         assert app.desk.view.library.selected == ("Blink",)
+
+
+def test_locked_shapes_stay_and_are_told(rig: Path, tmp_path: Path) -> None:
+    with library(rig, tmp_path) as app:
+        locked = np.arange(8) == 0
+        app.session.set_control("Lock shape0", replace(app.session.control, locked=locked))
+        app.ask(ApplyPose("Frown"))
+        assert app.desk.message == ""
+        app.ask(ApplyPose("Smile"))
+        assert not app.session.pose.weights.any()
+        assert "shape0 is locked" in app.desk.message
+        app.ask(ComparePoses("Smile", "Blink"))
+        np.testing.assert_array_equal(app.session.pose.weights, weights(app, 2))
+        assert "locked" not in app.desk.message
 
 
 def test_a_pose_of_other_shapes_says_what_does_not_match(rig: Path, tmp_path: Path) -> None:

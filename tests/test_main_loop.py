@@ -60,7 +60,7 @@ def test_a_folder_that_keeps_nothing_does_not_stop_the_start(tmp_path: Path) -> 
     with running(settings_folder=tmp_path / "file" / "facepin") as app:
         assert app.session.rig.name == "ada"
         assert app.desk.is_error
-        assert "preferences" in app.desk.message
+        assert "Not a directory" in app.desk.message
 
 
 def test_what_is_wrong_with_the_preferences_stays_to_be_read(tmp_path: Path) -> None:

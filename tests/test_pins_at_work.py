@@ -27,6 +27,7 @@ from facepin.panels.requests import (
     RemovePins,
     SelectPins,
     SetPins,
+    UseSolver,
 )
 from facepin.session import nudge
 from facepin.session.edit import Edit
@@ -250,6 +251,50 @@ def test_several_pins_change_together_as_one_step(app: App) -> None:
     assert app.session.work is before
 
 
+def test_a_name_or_a_lock_does_not_forget_the_drag_that_another_solver_can_be_asked_for(app: App) -> None:
+    first, second, *_ = vertices_of(app)
+    x, y = app.pixel_of(first)
+    app.drag((x, y), (x, y + 20), moves=6)
+    weights = app.session.pose.weights
+    app.ask(NamePin(first, "jaw"))
+    app.ask(SetPins(frozenset({first, second}), locked=True))
+    assert app.session.pose.weights is weights
+    assert app.session.pane.solved is not None
+    app.ask(UseSolver(0, choose("sparse")))
+    assert not np.allclose(app.session.pose.weights, weights)
+    assert pins_of(app)[first].locked
+
+
+def test_where_the_left_button_is_free_a_drag_beside_the_face_selects(app: App) -> None:
+    app.desk.view.habit = "maya"
+    camera, viewport = app.desk.camera, app.frame.viewport
+    app.press(*BESIDE)
+    app.move(viewport.x + viewport.width - 40, viewport.y + viewport.height - 60)
+    app.release(viewport.x + viewport.width - 40, viewport.y + viewport.height - 60)
+    assert app.desk.tool.selected == set(vertices_of(app))
+    app.press(*BESIDE)
+    app.release(*BESIDE)
+    assert not app.desk.tool.selected
+    assert app.desk.camera is camera
+    app.desk.view.habit = "facepin"
+
+
+def test_a_name_is_typed_into_the_menu_of_a_pin(app: App) -> None:
+    first, *_ = vertices_of(app)
+    x, y = app.pixel_of(first)
+    app.press(x, y, "right")
+    app.release(x, y, "right")
+    app.press(x + 60, y + 41)
+    app.release(x + 60, y + 41)
+    imgui.get_io().add_input_characters_utf8("chin")
+    app.step(PointerMoved(x + 61, y + 41), frames=2)
+    for down in (True, False):
+        imgui.get_io().add_key_event(imgui.Key.enter, down)
+        app.step(PointerMoved(x + 60, y + 41), frames=2)
+    assert pins_of(app)[first].name == "chin"
+    assert app.desk.view.pin_menu is None
+
+
 def test_a_held_arrow_key_is_one_step(app: App, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(nudge, "PAUSE", 0.02)
     first, second, *_ = vertices_of(app)
@@ -412,7 +457,7 @@ def test_several_panes_share_selection_strokes_and_nudges(app: App) -> None:
     app.key("b")
     viewport = app.frame.viewports[1]
     x, y = viewport.x + viewport.width / 2, viewport.y + 0.66 * viewport.height
-    app.drag((x - 70, y), (x + 70, y), moves=14)
+    app.drag((x - 50, y), (x + 50, y), moves=6)
     assert app.session.active == 1
     pins = app.session.pose.pins
     new = {pin.vertex for pin in pins[len(old) :]}

@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -84,16 +85,16 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
         assert _wait_for(lambda: hand.do("search", "--name", r"^ada\* - Facepin$")), (
             "the pose should be unsaved"
         )
-        saved = _save(hand, tmp_path / "dragged.json")
-        assert saved["weights"]["jawOpen"] > 0.1
+        saved = _save(hand, tmp_path / "dragged.facepin")
+        assert saved["panes"][0]["weights"]["jawOpen"] > 0.1
         assert len(saved["pins"]) == 1
         hand.do("key", "ctrl+z")
-        undone = _save(hand, tmp_path / "undone.json")
-        assert not any(undone["weights"].values())
+        undone = _save(hand, tmp_path / "undone.facepin")
+        assert not undone["panes"][0]["weights"]
         assert not undone["pins"]
         hand.do("key", "ctrl+shift+z")
-        redone = _save(hand, tmp_path / "redone.json")
-        assert np.allclose(list(redone["weights"].values()), list(saved["weights"].values()))
+        redone = _save(hand, tmp_path / "redone.facepin")
+        assert redone["panes"] == saved["panes"]
         hand.do("key", "ctrl+q")
         _, complaints = program.communicate(timeout=20)
         assert program.returncode == 0
@@ -103,9 +104,9 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
         program.communicate()
 
 
-def _save(hand: Hand, path: Path) -> dict[str, dict[str, float]]:
-    """Save the pose under a typed path, and read it."""
-    hand.do("key", "ctrl+s")
+def _save(hand: Hand, path: Path) -> dict[str, Any]:
+    """Save the scene under a typed path, and read it."""
+    hand.do("key", "ctrl+shift+s")
     time.sleep(0.6)
     hand.do("key", "ctrl+a")
     hand.do("type", "--delay", 8, str(path))

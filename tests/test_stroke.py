@@ -80,8 +80,10 @@ def test_a_press_on_a_pin_takes_it_and_with_it_the_stroke() -> None:
 def test_a_click_is_a_single_pin_and_a_short_stroke_has_no_pin_twice() -> None:
     edit = draw(DragTool(), np.array([pixel_of(40)] * 2) + 1)
     assert [pin.vertex for pin in edit.pins] == [40]
-    short = draw(DragTool(), line(40, 41), count=15)
+    tool = DragTool()
+    short = draw(tool, line(40, 41), count=15)
     assert [pin.vertex for pin in short.pins] == [40, 41]
+    assert tool.remark.startswith("2 pins are laid")
 
 
 def test_a_stroke_may_leave_the_face_and_come_back() -> None:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 from facepin import __version__
 from facepin.commands import COMMANDS
 from facepin.core.errors import FacepinError
+from facepin.files.scene_file import SUFFIX
 from facepin.options import first_pose, solver_choices
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def _window_parser() -> ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"facepin {__version__}")
     parser.add_argument(
-        "rig", nargs="?", type=Path, metavar="RIG", help="face to open (default: the built-in one)"
+        "rig", nargs="?", type=Path, metavar="RIG", help="face or scene to open (default: the built-in face)"
     )
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
     parser.add_argument("--solver", metavar="KEY", help="solver to begin with (default: the last one used)")
@@ -75,6 +76,10 @@ def _window(options: Namespace) -> None:
         raise FacepinError(
             f"'{options.rig}' is neither a rig nor a command (commands: {', '.join(COMMANDS)})"
         )
+    is_scene = options.rig is not None and options.rig.suffix.lower() == SUFFIX
+    own = [name for name in ("neutral", "solver", "compare", "pins", "pose") if getattr(options, name)]
+    if is_scene and own:
+        raise FacepinError(f"{options.rig.name} is a scene, which has its own --{' and --'.join(own)}")
     from platformdirs import user_config_path, user_pictures_path
 
     from facepin.files.preferences import read_preferences

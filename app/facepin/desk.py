@@ -10,20 +10,21 @@ from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.files import open_rig
+from facepin.keeping import Keeper
 from facepin.library import Library, library_of
+from facepin.opening import Begun, Opener, Opening, SceneOpening
 from facepin.options import BUILTIN
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
-from facepin.papers import keep_pose
 from facepin.portraits import Portraits
 from facepin.resources import resource
+from facepin.scenes import Snapshot, shown_over
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
 from facepin.session.job import Job
 from facepin.session.loading import Loading
-from facepin.session.session import Session, Work
+from facepin.session.session import Session
 from facepin.session.solving import SolverChoice
 from facepin.stage import Stage
 
@@ -41,7 +42,7 @@ class Desk:
         *,
         native_dialogs: bool,
         pictures: Path,
-        unsaved: Path | None,
+        drafts: Path | None,
         settings: Path | None = None,
         chart_writer: ChartWriter | None,
     ) -> None:
@@ -59,8 +60,8 @@ class Desk:
             Use the platform's file dialogs.
         pictures : Path
             Folder that saved pictures go to.
-        unsaved : Path
-            Folder where poses are kept that nobody saved; None keeps nothing.
+        drafts : Path
+            Folder where unsaved work is kept; None keeps nothing.
         settings : Path
             Folder for poses of rigs that they can't be kept beside; None for nowhere.
         chart_writer : callable
@@ -75,12 +76,13 @@ class Desk:
         self.portraits: Portraits | None = None
         self.job: Job | None = None
         """What is being made beside the work."""
-        self.loading: Loading | None = None
+        self.opener = Opener()
         self.dialog: FileDialog | None = None
         self.message = ""
         self.is_error = False
         self.opened: Path | None = None
-        """The last rig that was opened from a file, for the list of recent ones."""
+        """The last rig or scene that was opened from a file, for the list of recent ones."""
+        self.keeper = Keeper(drafts)
         self.closing = False
         self.viewport = Viewport(0, 0, 1, 1)
         """Of the first pane, as last drawn."""
@@ -91,13 +93,11 @@ class Desk:
         self._ctx = ctx
         self._choices = choices
         self._native = native_dialogs
-        self._unsaved = unsaved
         self._settings = settings
         self._then: Callable[[Path], None] = self.open
         """What the open dialog is for."""
-        self._saved: Work | None = None
-        self._first_pose: Callable[[Rig], Pose] | None = None
-        self._solve_first = False
+        self._open: Opening | None = None
+        """How what is open was opened."""
         self._numbers = [0]
         """Of the panes that `cameras` and `view.panes` are for."""
         self._looks: dict[int, tuple[Camera, PaneView]] = {}
@@ -114,6 +114,11 @@ class Desk:
         return self.stage.session if self.stage else None
 
     @property
+    def loading(self) -> Loading | None:
+        """The rig that is being opened, if any."""
+        return self.opener.loading
+
+    @property
     def camera(self) -> Camera:
         """The camera of the active pane."""
         return self.cameras[self.session.active if self.session else 0]
@@ -126,17 +131,14 @@ class Desk:
             self.cameras[self.session.active if pane is None else pane] = camera
 
     @property
-    def is_saved(self) -> bool:
-        """Whether nothing would be lost by closing."""
-        return self.session is None or self.session.committed is self._saved
-
-    @property
     def title(self) -> str:
-        """What the title bar says: the rig, a star while its pose is unsaved, the program."""
+        """What the title bar says: the scene's file, a star while unsaved, the rig, the program."""
         if self.session is None:
             return "Facepin"
-        star = "" if self.is_saved else "*"
-        return f"{self.session.rig.name}{star} - Facepin"
+        star = "" if self.keeper.is_saved(self.session) else "*"
+        if self.keeper.file is None:
+            return f"{self.session.rig.name}{star} - Facepin"
+        return f"{self.keeper.file.name}{star} - {self.session.rig.name} - Facepin"
 
     def say(self, message: str, *, error: bool = False) -> None:
         """Show a message in the status line until the next one."""
@@ -150,36 +152,14 @@ class Desk:
         solve: bool = False,
         neutral: str | None = None,
     ) -> None:
-        """Start opening the rig at `path`; `poll` puts it on the desk when it is there.
-
-        Parameters
-        ----------
-        path : Path
-            File or folder.
-        first_pose : callable
-            Makes the pose to begin with once the rig is there.
-        solve : bool
-            Whether the weights then follow the pins of that pose.
-        neutral : str
-            For a folder: the file with the neutral.
-        """
-        if self.loading is not None:
-            self.loading.cancel()
-        self._first_pose, self._solve_first = first_pose, solve
-        self.loading = Loading(
-            path, lambda path, progress: open_rig(path, neutral=neutral, progress=progress)
-        )
+        """Start opening a rig or a scene, see `Opener.open`; `poll` puts it on the desk when it is there."""
+        self.opener.open(path, first_pose, solve=solve, neutral=neutral)
 
     def poll(self) -> None:
         """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""
-        if self.loading is not None and self.loading.finished:
-            loading, self.loading = self.loading, None
-            with self.reporting():
-                rig = loading.result()
-                if rig is not None:
-                    self._show(rig)
-                    if loading.path != resource("assets", BUILTIN):
-                        self.opened = loading.path
+        with self.reporting():
+            if (found := self.opener.take()) is not None:
+                self._show(*found)
         if self.dialog is not None and self.dialog.finished:
             dialog, self.dialog = self.dialog, None
             if dialog.path is not None:
@@ -229,23 +209,31 @@ class Desk:
         elif edit.final:
             self.say("")
 
-    def saved(self) -> None:
-        """Take the work as it is for saved."""
-        self._saved = self.session.committed if self.session else None
+    def snapshot(self) -> Snapshot:
+        """Return all that a scene is made of, as it is at the last undo step."""
+        session, opening = self.session, self._open
+        assert session is not None and opening is not None, "there is something to keep"
+        self.sync()
+        return Snapshot(
+            session.rig,
+            opening.source,
+            session.committed,
+            session.active,
+            tuple(self.cameras),
+            tuple(shown_over(view) for view in self.view.panes),
+            self.view.linked,
+            self.keeper.file,
+            opening.scene.sections if isinstance(opening, SceneOpening) else {},
+        )
 
-    def keep_unsaved(self) -> Path | None:
-        """Write the pose to a file of its own if nobody saved it; return where."""
-        session = self.session
-        if session is None or self._unsaved is None or session.committed is self._saved:
-            return None
-        pose = session.committed.panes[session.active].pose
-        self._saved = session.committed
-        return keep_pose(session.rig, pose, self._unsaved)
+    def keep(self) -> None:
+        """Have a draft written if there is a new undo step; costs nothing if there is not."""
+        if self.session is not None:
+            self.keeper.follow(self.session, self.snapshot)
 
     def release(self) -> None:
         """Give everything back."""
-        if self.loading is not None:
-            self.loading.cancel()
+        self.opener.cancel()
         if self.dialog is not None:
             self.dialog.close()
         self._put_away()
@@ -260,42 +248,59 @@ class Desk:
         if self.stage is not None:
             self.stage.release()
 
-    def _show(self, rig: Rig) -> None:
-        """Put an opened rig on the desk."""
-        pose, complaint = None, ""
-        try:
-            pose = self._first_pose(rig) if self._first_pose else None
-        except FacepinError as error:
-            complaint = str(error)  # the rig is there all the same
+    def _show(self, rig: Rig, opening: Opening) -> None:
+        """Put an opened rig on the desk.
+
+        Raises
+        ------
+        FacepinError, moderngl.Error
+            When that is impossible; what was open stays so.
+        """
         choices = [pane.choice for pane in self.session.panes] if self.session else self._choices
-        session = Session(rig, choices, pose)
-        if pose is not None and self._solve_first:
-            session.apply(Edit("Solve the pins", True, pose.pins, solve=True))
-        stage = Stage(self._ctx, session)
-        kept = self.keep_unsaved()
-        is_first = self.stage is None
+        begun = opening.begin(rig, choices)
+        stage = Stage(self._ctx, begun.session)
+        before = self.session
+        try:
+            left = self.keeper.let_go(before, self.snapshot) if before else None
+        except FacepinError:
+            stage.release()
+            raise
         self._put_away()
-        self.stage, self.tool = stage, DragTool()
+        self.stage, self.tool, self._open = stage, DragTool(), opening
         own = rig.source != resource("assets", BUILTIN)
-        self.library = library_of(session, self._settings, own=own)
+        self.library = library_of(begun.session, self._settings, own=own)
         self.portraits = Portraits(self._ctx, stage)
-        self._saved = session.committed
-        count = len(session.panes)
-        width, height, _ = np.ptp(rig.neutral, axis=0).tolist()
-        camera = Camera(radius=0.0, least_aspect=min(1.15 * width / max(height, 1e-9), 2.0))
-        framed = frame_points(stage.positions(session.active), self.viewport.aspect, camera)
-        self.cameras = [framed] * count
-        self.view.panes = [PaneView() for _ in range(count)]  # what was shown over another face is over
-        self._numbers, self._looks = [pane.number for pane in session.panes], {}
-        if complaint := complaint or session.message:
-            self.say(complaint, error=True)
-        elif kept is not None:
-            self.say(f"Opened {rig.name}; the pose that was not saved is kept in {kept}")
+        file = leftover = None
+        moved = False
+        if isinstance(opening, SceneOpening):
+            file, leftover, moved = opening.file, opening.leftover, opening.moved
+        self.keeper.begin(begun.session, file, leftover, saved=not moved)
+        self._look_at(begun, stage)
+        if leftover is None and (file or not opening.source.asset):
+            self.opened = file or opening.source.path
+        if begun.complaint:
+            self.say(f"{file.name}: {begun.complaint}" if file else begun.complaint, error=True)
+        elif left is not None and before is not None:
+            self.say(f"The unsaved work on {before.rig.name} is kept: see File, {Command.UNSAVED_WORK.title}")
+        elif leftover is not None:
+            self.say(f"The unsaved work on {rig.name} is back, as it was at {leftover.time:%H:%M}")
         elif rig.warnings:
             more = f" (and {len(rig.warnings) - 1} more)" if len(rig.warnings) > 1 else ""
             self.say(f"Opened with a warning: {rig.warnings[0]}{more}")
-        elif not is_first:  # what was wrong with the start stays to be read
+        elif before is not None:  # what was wrong with the start stays to be read
             self.say("")
+
+    def _look_at(self, begun: Begun, stage: Stage) -> None:
+        """Give each pane the camera that it comes with, or one that frames the face."""
+        session = begun.session
+        width, height, _ = np.ptp(session.rig.neutral, axis=0).tolist()
+        camera = Camera(radius=0.0, least_aspect=min(1.15 * width / max(height, 1e-9), 2.0))
+        framed = frame_points(stage.positions(session.active), self.viewport.aspect, camera)
+        self.cameras = [own or framed for own in begun.cameras]
+        self.view.panes = list(begun.views)
+        if begun.linked is not None:
+            self.view.linked = begun.linked
+        self._numbers, self._looks = [pane.number for pane in session.panes], {}
 
     def ask(
         self,

@@ -1,6 +1,7 @@
 """All panels of one frame: what they show of the desk, and what the user wants of it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -8,13 +9,16 @@ from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
+from facepin.core.shape_motion import movers
 from facepin.desk import Desk
+from facepin.files.drafts import Leftover
 from facepin.panels import layout
 from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
 from facepin.panels.filmstrip import filmstrip_window
 from facepin.panels.guide import Hand, draw_guide
 from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint, symmetry_sign
+from facepin.panels.history import history_window
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
 from facepin.panels.library import Shown, library_panel
@@ -23,13 +27,16 @@ from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import pins_panel, together
+from facepin.panels.recovery import WorkRow, lost_card, recovery_card
 from facepin.panels.requests import CancelJob, CancelLoading, Command, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import progress_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours
-from facepin.panels.weights import weights_panel
+from facepin.panels.vertex_card import vertex_card
+from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
 from facepin.session.filmstrip import filmstrip
+from facepin.session.mirroring import linked_weights
 from facepin.session.session import Session
 from facepin.stage import Stage
 
@@ -49,19 +56,27 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
+    left = bool(desk.keeper.left)
     spacing = imgui.get_style().item_spacing
     imgui.push_style_var(
         imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, 2 * spacing.y)
     )  # easier to hit
-    asked: list[Request | None] = [menu_bar(view, recent, session)]
+    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=left)]
     imgui.pop_style_var()
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
         timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
-    warnings = rig.warnings if rig else ()
-    status_line(rig, timing, desk.message, view.theme, is_error=desk.is_error, warnings=warnings)
+    status_line(
+        rig,
+        timing,
+        desk.message,
+        view.theme,
+        is_error=desk.is_error,
+        warnings=rig.warnings if rig else (),
+        unkept=desk.keeper.complaint,
+    )
     if desk.loading is not None and desk.loading.is_long:
         title = f"Opening {desk.loading.path.name}"
         if progress_card(title, desk.loading.fraction, desk.loading.line):
@@ -72,7 +87,8 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         desk.dialog.draw()
     if session is not None:
         asked.append(_pin_popup(desk, session.pose))
-    asked.append(palette(view, session, recent, scale))
+    poses = desk.library.poses if desk.library is not None else ()
+    asked.append(palette(view, session, recent, poses, scale))
     if view.keyboard:
         view.keyboard = keyboard_map(view.habit, view.theme, scale)
     if view.about:
@@ -91,7 +107,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         imgui units per pixel of a 1x screen.
     """
     session, theme = desk.session, desk.view.theme
-    request = edit = None
+    request = wish = None
     layout.without_background(layout.SOLVER)
     if imgui.begin(layout.SOLVER)[0] and session is not None:
         request = solver_panel(
@@ -112,9 +128,10 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         if desk.view.pins.hovered is not None:
             desk.tool.hovered = desk.view.pins.hovered
     imgui.end()
+    desk.view.weights.explained = None
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
-        edit = weights_panel(
+        wish = weights_panel(
             session.rig,
             session.control,
             session.panes,
@@ -129,9 +146,13 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     blend, more = _library(desk, scale)
     if is_first:  # else the tab that is made last lies on top
         imgui.set_window_focus(layout.WEIGHTS)
-    edit = edit or blend
-    if edit is not None:
-        desk.apply(edit)
+    for at, pane in enumerate(desk.view.panes):
+        pane.shape = desk.view.weights.explained if session is not None and at == session.active else None
+    if isinstance(wish, Edit):
+        desk.apply(_linked(desk, session, wish))
+        wish = None
+    elif blend is not None:
+        desk.apply(blend)
     chart: Request | None = None
     film: Request | None = None
     if desk.view.chart and session is not None:
@@ -141,7 +162,15 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     if desk.view.filmstrip and session is not None and desk.portraits is not None:
         stills = filmstrip(session)
         desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
-    return [asked for asked in (request, of_pins, chart, film, *more) if asked is not None]
+    return [asked for asked in (request, of_pins, wish, chart, film, *more) if asked is not None]
+
+
+def _linked(desk: Desk, session: Session | None, edit: Edit) -> Edit:
+    """Let the twin of a slider move along while left and right are one."""
+    if session is None or edit.weights is None or not desk.view.symmetric:
+        return edit
+    before = session.committed.panes[session.active].pose.weights
+    return replace(edit, weights=linked_weights(session.mirror, before, edit.weights))
 
 
 def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
@@ -177,6 +206,35 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
     return edit, asked
 
 
+def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
+    """Draw what floats at the top of the picture, face or no face: history, unsaved work, a missing rig."""
+    place = (viewport.x / pixel_ratio, viewport.y / pixel_ratio)
+    width = viewport.width / pixel_ratio
+    session, view = desk.session, desk.view
+    asked: list[Request | None] = []
+    if view.history and session is not None:
+        steps, step = session.steps, session.step
+        view.history, wanted = history_window(session.rig, steps, step, *place, scale, view.theme)
+        asked.append(wanted)
+    if desk.opener.lost is not None:
+        asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
+    elif desk.keeper.left and view.recovery.shown:
+        rows = [_work_row(leftover) for leftover in desk.keeper.left]
+        asked.append(recovery_card(rows, view.recovery, *place, width, view.theme))
+    return [request for request in asked if request is not None]
+
+
+def _work_row(leftover: Leftover) -> WorkRow:
+    scene = leftover.scene
+    name = scene.rig.name if scene.of is None else f"{scene.of.name} ({scene.rig.name})"
+    pins, panes = len(scene.pins), len(scene.panes)
+    shapes = len(scene.panes[scene.active].weights)
+    about = [f"{leftover.time:%d %b %H:%M}"]
+    about += [f"{shapes} shape{'' if shapes == 1 else 's'}", f"{pins} pin{'' if pins == 1 else 's'}"]
+    about += [f"{panes} panes"] * (panes > 1)
+    return WorkRow(leftover.draft.path, name, "  ".join(about))
+
+
 def over_picture(
     desk: Desk, viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
 ) -> list[Request]:
@@ -205,6 +263,7 @@ def over_picture(
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.shading == "heat":
             heat_legend(session.rig.height, place, pixel_ratio, scale)
+    _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)
     elif not desk.view.pins.sketching:
@@ -269,6 +328,23 @@ def _hand(
         symmetry_sign(viewport, pixel_ratio, scale)
     hidden = sum(pin.hidden for pin in pins)
     return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
+
+
+def _vertex_under_mouse(
+    desk: Desk, stage: Stage, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
+) -> None:
+    """While Ctrl is held: tell which shapes can move what is under the mouse, and mark their sliders."""
+    io, view = imgui.get_io(), desk.view.weights
+    view.marked = frozenset()
+    if not io.key_ctrl or io.want_capture_mouse or any(io.mouse_down):
+        return
+    pixel = io.mouse_pos.x * pixel_ratio, io.mouse_pos.y * pixel_ratio
+    for at, (place, camera) in enumerate(zip(viewports, desk.cameras, strict=False)):
+        vertex = stage.vertex_under(at, camera, place, pixel) if place.contains(*pixel) else None
+        if vertex is not None:
+            found = movers(stage.session.rig, vertex)
+            view.marked = frozenset(j for j, _ in found)
+            vertex_card(stage.session.rig, stage.session.control, vertex, found, scale)
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:

@@ -1,7 +1,6 @@
 """One frame after another: input, edits, panels, picture."""
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
@@ -12,6 +11,7 @@ from imgui_bundle import imgui
 from facepin import interface
 from facepin.actions import carry_out
 from facepin.core.camera import Viewport
+from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
 from facepin.core.quality import Level, level
@@ -19,6 +19,7 @@ from facepin.core.rig import Rig
 from facepin.desk import ChartWriter, Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
 from facepin.gpu.canvas import Canvases
+from facepin.layout_file import LayoutFile
 from facepin.options import BUILTIN
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
@@ -91,7 +92,12 @@ def run(window: Window, start: Start) -> None:
 def frames(window: Window, start: Start) -> Iterator[Frame]:
     """Run the program frame by frame; ends when the user quits.
 
-    However it ends, a pose that nobody saved is kept, and the next start says where.
+    However it ends, work that nobody saved is kept, and the next start offers it.
+
+    Raises
+    ------
+    FacepinError
+        At the end, when there is such work and it could not be kept.
     """
     view = View()
     canvases = Canvases(window.ctx, window.texture)
@@ -101,22 +107,27 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         start.choices,
         native_dialogs=start.native_dialogs and has_native_dialogs(),
         pictures=start.pictures,
-        unsaved=start.settings_folder / "unsaved" if start.settings_folder else None,
+        drafts=start.settings_folder / "autosave" if start.settings_folder else None,
         settings=start.settings_folder,
         chart_writer=start.chart_writer,
     )
+    _set_up_imgui()
+    layout_file = LayoutFile(start.settings_folder / "layout.ini" if start.settings_folder else None)
     try:
-        yield from _loop(window, start, desk, canvases)
+        yield from _loop(window, start, desk, layout_file, canvases)
     finally:
-        kept = desk.keep_unsaved()
-        if kept is not None and start.settings_folder is not None:
-            file = start.settings_folder / "preferences.json"
-            write_preferences(file, replace(read_preferences(file)[0], kept=str(kept)))
+        layout_file.save()
+        desk.keep()
+        lost = desk.keeper.close()
         desk.release()
         canvases.release()
+        if lost:
+            raise FacepinError(lost)
 
 
-def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Iterator[Frame]:
+def _loop(
+    window: Window, start: Start, desk: Desk, layout_file: LayoutFile, canvases: Canvases
+) -> Iterator[Frame]:
     """Draw frame after frame until the user quits."""
     view = desk.view
     preferences_file = start.settings_folder / "preferences.json" if start.settings_folder else None
@@ -126,15 +137,15 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
     view.guide.step = preferences.guide
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
-    _set_up_imgui(start.settings_folder)
     software = _is_software(window.ctx)
     router = Router()
-    if complaint:
-        desk.say(complaint, error=True)
-    elif preferences.kept and Path(preferences.kept).exists():
-        desk.say(f"The pose that was not saved last time is kept: drop {preferences.kept} on the window")
-    rig = start.rig or resource("assets", BUILTIN)
-    desk.open(rig, start.first_pose, solve=start.solve_first, neutral=start.neutral)
+    view.recovery.shown = bool(desk.keeper.left)
+    for problem in (*desk.keeper.remarks, layout_file.complaint, complaint):
+        if problem:
+            desk.say(problem, error=True)
+    with desk.reporting():
+        rig = start.rig or resource("assets", BUILTIN)
+        desk.open(rig, start.first_pose, solve=start.solve_first, neutral=start.neutral)
     viewport = Viewport(0, 0, *window.size)
     viewports: tuple[Viewport, ...] = (viewport,)
     desk.viewport = viewport
@@ -142,6 +153,7 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
     theme: Theme | None = None
     drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
+    unkept = ""
     look_again: float | None = None
 
     while not desk.closing:
@@ -150,7 +162,8 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
         began = perf_counter()
         waiting = desk.loading is not None or desk.dialog is not None or desk.job is not None
         busy = waiting or desk.tool.nudging or view.guide.moving(began)
-        settling = SETTLE if events or busy else settling - 1
+        settling = SETTLE if events or busy or desk.keeper.complaint != unkept else settling - 1
+        unkept = desk.keeper.complaint
         if 0 in window.size:
             # Minimised: there is nothing to draw on, and imgui would fold its panels up.
             if CloseRequested() in events:
@@ -190,6 +203,7 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         reset_layout = False
         asked += interface.panels(desk, scale)
+        asked += interface.cards(desk, viewport, window.pixel_ratio, scale)
         if desk.stage is not None:
             moved = desk.stage.update()
             viewports = layout.split(viewport, len(desk.stage.session.panes), PANE_GAP * window.scale)
@@ -225,9 +239,12 @@ def _loop(window: Window, start: Start, desk: Desk, canvases: Canvases) -> Itera
         if asked:
             desk.sync()
             settling = SETTLE
+        desk.keep()
         if desk.title != title:
             title = desk.title
             window.set_title(title)
+        if complaint := layout_file.save_if_due():
+            desk.say(complaint, error=True)
         remembered = _remembered(preferences, desk)
         if preferences_file and remembered != preferences:
             preferences = remembered
@@ -248,7 +265,6 @@ def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
         habit=view.habit,
         guide=view.guide.step,
         lately=view.lately,
-        kept="",
     )
     if desk.opened is not None:
         found = found.opened(desk.opened)
@@ -257,17 +273,10 @@ def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
     return found
 
 
-def _set_up_imgui(settings_folder: Path | None) -> None:
+def _set_up_imgui() -> None:
     io = imgui.get_io()
     io.config_flags |= imgui.ConfigFlags_.docking_enable
     io.config_windows_move_from_title_bar_only = True
-    ini = str(settings_folder / "layout.ini") if settings_folder else None
-    if settings_folder:
-        with suppress(
-            OSError
-        ):  # imgui then keeps no layout; that preferences are not kept is said by who writes
-            settings_folder.mkdir(parents=True, exist_ok=True)
-    io.set_ini_filename(ini)
 
 
 def _is_software(ctx: moderngl.Context) -> bool:

@@ -9,6 +9,7 @@ from facepin.actions import (
     comparing,
     files,
     helping,
+    keeping,
     landmarks,
     library,
     mirroring,
@@ -21,6 +22,7 @@ from facepin.desk import Desk
 from facepin.panels.requests import Request
 
 TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
+    keeping.act,
     landmarks.act,
     files.act,
     posing.act,

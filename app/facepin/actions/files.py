@@ -17,6 +17,7 @@ from facepin.session.session import Session
 
 POSES = ("Poses", "*.json *.csv")
 FACES = ("Faces", "*.glb *.gltf *.vrm *.npz *.obj", "All files", "*")
+ALL = ("Faces and scenes", "*.facepin *.glb *.gltf *.vrm *.npz *.obj", "All files", "*")
 MODELS = ("Models", "*.glb *.obj *.ply *.stl")
 
 
@@ -29,16 +30,13 @@ def act(request: Request, desk: Desk) -> bool:
         case OpenPath(path):
             desk.open(path)
         case CancelLoading():
-            if desk.loading is not None:
-                desk.loading.cancel()
-        case Command.QUIT:
-            desk.closing = True
+            desk.opener.cancel()
         case Command.OPEN_BUILTIN:
             desk.open(resource("assets", BUILTIN))
         case Command.OPEN_FILE | Command.OPEN_FOLDER:
             start = Path.home() if desk.opened is None else desk.opened.parent
             kind: Kind = "open file" if request is Command.OPEN_FILE else "open folder"
-            desk.ask(kind, request, start, FACES if kind == "open file" else (), desk.open)
+            desk.ask(kind, request, start, ALL if kind == "open file" else (), desk.open)
         case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT if session is not None:
             desk.say("")
             _ask_for(request, desk, session)
@@ -85,7 +83,6 @@ def _ask_for(command: Command, desk: Desk, session: Session) -> None:
 
 def _save_pose(desk: Desk, session: Session, path: Path) -> None:
     write_pose(path, session.rig, session.pose)
-    desk.saved()
     desk.say(f"Saved {path}")
 
 

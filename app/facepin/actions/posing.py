@@ -1,7 +1,7 @@
 """The pose as a whole, and the way back."""
 
 from facepin.desk import Desk
-from facepin.panels.requests import Command, Request
+from facepin.panels.requests import CancelEdit, Command, GoToStep, Request, SetControl
 
 
 def act(request: Request, desk: Desk) -> bool:
@@ -16,9 +16,18 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.REDO:
             label = session.redo_label
             desk.say(f"Redone: {label}" if session.redo() else "Nothing to redo")
+        case GoToStep(step):
+            if session.go_to(step):
+                desk.say(f"Went to step {step}: {session.steps[step].label}")
         case Command.RESET_POSE:
             session.reset()
             desk.say(session.message)
+        case SetControl(label, control, final):
+            session.set_control(label, control, final=final)
+            desk.say("")
+        case CancelEdit():
+            session.cancel()
+            desk.say("")
         case _:
             return False
     return True

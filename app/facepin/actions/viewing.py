@@ -43,6 +43,8 @@ def act(request: Request, desk: Desk) -> bool:
             shown.next_ghost(has_reference=stage.session.work.reference is not None)
         case Command.CHART:
             desk.view.chart = not desk.view.chart
+        case Command.HISTORY:
+            desk.view.history = not desk.view.history
         case _:
             return False
     desk.say("")

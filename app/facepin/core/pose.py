@@ -67,6 +67,15 @@ def with_changed(
     return tuple(change(pin) if pin.vertex in vertices else pin for pin in pins)
 
 
+def hold_alike(pins: tuple[Pin, ...], others: tuple[Pin, ...]) -> bool:
+    """Say whether two sets of pins constrain the same: names, locks and hiding have no part in it."""
+
+    def bare(pin: Pin) -> Pin:
+        return replace(pin, name="", locked=False, hidden=False)
+
+    return list(map(bare, pins)) == list(map(bare, others))
+
+
 def rest_pose(rig: Rig) -> Pose:
     """Return the pose a rig opens with: the file's own weights (mostly zero) and no pins."""
     return Pose(rig.rest_weights)

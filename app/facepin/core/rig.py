@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -124,6 +125,22 @@ class Rig:
     def scale(self) -> float:
         """Mean over shapes of the squared largest vertex move: the unit of relative solver settings."""
         return float(np.mean(self.largest_moves**2)) if self.shape_count else 0.0
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """Hex digits that are the same as long as mesh and shapes are, whatever they are called."""
+        found = sha256()
+        for array, kind in (
+            (self.neutral, "<f4"),
+            (self.corners, "<i4"),
+            (self.face_sizes, "<i4"),
+            (self.deltas.data, "<f4"),
+            (self.deltas.indices, "<i8"),
+            (self.deltas.indptr, "<i8"),
+            (self.combinations, "<i4"),
+        ):
+            found.update(np.ascontiguousarray(array, dtype=kind).data)
+        return found.hexdigest()[:32]
 
     def amounts(self, weights: Floats) -> Floats:
         """How much of each column of `deltas` a pose has, (k + c,): its weights (k,), then their products.

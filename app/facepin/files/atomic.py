@@ -1,12 +1,16 @@
 """Files appear whole or not at all: written under a temporary name in the same folder, then renamed."""
 
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from secrets import token_hex
 
 from facepin.core.errors import FacepinError
+
+BROKEN = ".broken"
+"""What the name of a file that can't be used ends in, once it is set aside."""
 
 
 def atomic_write(path: Path, content: bytes) -> None:
@@ -19,6 +23,20 @@ def atomic_write(path: Path, content: bytes) -> None:
     """
     with atomic_file(path) as temporary:
         temporary.write_bytes(content)
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder for files to be written to, if it is not there.
+
+    Raises
+    ------
+    FacepinError
+        If it cannot be made.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FacepinError(f"{path}: the folder cannot be made: {error.strerror or error}") from error
 
 
 @contextmanager
@@ -46,12 +64,40 @@ def atomic_file(path: Path) -> Iterator[Path]:
         raise FacepinError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
+def set_aside(path: Path) -> str:
+    """Rename a file that can't be used, so that nothing overwrites it; say so in a few words."""
+    aside = path.with_name(path.name + BROKEN)
+    try:
+        path.replace(aside)
+    except OSError as error:
+        return f"it could not be set aside either: {error.strerror or error}"
+    return f"it is set aside as {aside.name}"
+
+
 def _settle(temporary: Path, target: Path) -> None:
     """Push the content to the disk, give it the permissions of the file that it replaces, and rename it."""
     with temporary.open("rb+") as file:
-        os.fsync(file.fileno())
+        _push(file.fileno())
     if target.exists():
         if not os.access(target, os.W_OK):
             raise PermissionError(0, "it is read-only")
         temporary.chmod(target.stat().st_mode & 0o777)
     temporary.replace(target)
+    if os.name == "posix":  # else a power cut can bring the old name back; Windows opens no folders
+        folder = os.open(target.parent, os.O_RDONLY)
+        try:
+            with suppress(OSError):  # some network folders can't, and the file itself is safe
+                os.fsync(folder)
+        finally:
+            os.close(folder)
+
+
+def _push(file: int) -> None:
+    """Wait until a file is on the disk; macOS leaves it in the disk's own memory unless asked twice."""
+    if sys.platform == "darwin":
+        import fcntl
+
+        with suppress(OSError):  # not every file system there knows it
+            fcntl.fcntl(file, fcntl.F_FULLFSYNC)
+            return
+    os.fsync(file)

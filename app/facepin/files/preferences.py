@@ -9,7 +9,8 @@ from typing import Any, Literal
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Freedom
 from facepin.core.quality import LEVELS, Quality
-from facepin.files.atomic import atomic_write
+from facepin.files.atomic import atomic_write, make_folder, set_aside
+from facepin.files.checked_json import parse_json
 
 Theme = Literal["dark", "light"]
 Habit = Literal["facepin", "maya", "blender"]
@@ -23,7 +24,7 @@ class Preferences:
     """Small choices of the user; a value that makes no sense is replaced by its default."""
 
     recent: tuple[str, ...] = ()
-    """Rigs opened lately, newest first, absolute paths."""
+    """Rigs and scenes opened lately, newest first, absolute paths."""
     freedom: Freedom = "space"
     quality: Quality = "auto"
     ui_scale: float = 1.0
@@ -35,11 +36,9 @@ class Preferences:
     """How many of the first steps are done."""
     lately: tuple[str, ...] = ()
     """What was chosen in the command palette, newest first."""
-    kept: str = ""
-    """Where the pose is that the last run ended with and nobody saved."""
 
     def opened(self, path: Path) -> "Preferences":
-        """Return the preferences with a rig put first among the recent ones."""
+        """Return the preferences with a rig or scene put first among the recent ones."""
         entry = str(path.resolve())
         return replace(self, recent=(entry, *(other for other in self.recent if other != entry))[:RECENT])
 
@@ -56,23 +55,26 @@ _CHECKS: dict[str, Callable[[Any], bool]] = {
     "habit": lambda value: value in ("facepin", "maya", "blender"),
     "guide": lambda value: isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= 1000,
     "lately": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
-    "kept": lambda value: isinstance(value, str),
 }
 
 
 def read_preferences(path: Path) -> tuple[Preferences, str | None]:
     """Return the preferences in a file, and one line about what in it could not be used (or None).
 
-    A missing file gives the defaults; a broken one too, so that the program always starts.
+    A missing file gives the defaults; a broken one too, so that the program always starts: it is set aside,
+    so that nothing overwrites it.
     """
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        found = parse_json(path.read_bytes(), path.name).values
     except FileNotFoundError:
         return Preferences(), None
-    except (OSError, ValueError) as error:
-        return Preferences(), f"{path.name}: preferences could not be read ({error}); the defaults are used"
-    if not isinstance(found, dict):
-        return Preferences(), f"{path.name}: preferences are not a JSON object; the defaults are used"
+    except OSError as error:
+        return (
+            Preferences(),
+            f"the preferences can't be read ({error.strerror or error}); the defaults are used",
+        )
+    except FacepinError as error:
+        return Preferences(), f"the preferences can't be used: {error}; {set_aside(path)}"
     for key, names in _RENAMED.items():
         if isinstance(found.get(key), str):
             found[key] = names.get(found[key], found[key])
@@ -90,8 +92,8 @@ def write_preferences(path: Path, preferences: Preferences) -> str | None:
     """Write the preferences; return one line when that is impossible (they are not worth an interruption)."""
     text = json.dumps(asdict(preferences), indent=2) + "\n"
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(path.parent)
         atomic_write(path, text.encode())
-    except (OSError, FacepinError) as error:
+    except FacepinError as error:
         return f"preferences could not be kept: {error}"
     return None

@@ -9,6 +9,8 @@ WITHOUT_FACE = frozenset(
         Command.OPEN_FILE,
         Command.OPEN_FOLDER,
         Command.OPEN_BUILTIN,
+        Command.LOCATE_RIG,
+        Command.UNSAVED_WORK,
         Command.QUIT,
         Command.RESET_LAYOUT,
         Command.PALETTE,
@@ -61,4 +63,8 @@ def is_on(command: Command, view: View, active: int) -> bool:
             return view.pins.sketching
         case Command.CHART:
             return view.chart
+        case Command.HISTORY:
+            return view.history
+        case Command.UNSAVED_WORK:
+            return view.recovery.shown
     return False

@@ -17,6 +17,7 @@ from facepin.session.stroke import Stroke
 
 _OVER_PICTURE: dict[int, Colour] = {
     imgui.Col_.window_bg: PICTURE.popup,
+    imgui.Col_.border: PICTURE.border,
     imgui.Col_.text: PICTURE.text,
     imgui.Col_.text_disabled: PICTURE.text_dim,
     imgui.Col_.button: PICTURE.frame_hovered,

@@ -34,7 +34,9 @@ POSES_MENU = (
 )
 
 
-def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Request | None:
+def menu_bar(
+    view: View, recent: Sequence[Path], session: Session | None, *, has_leftovers: bool = False
+) -> Request | None:
     """Draw the menu bar; return what the user asks for, or None.
 
     Parameters
@@ -42,9 +44,11 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
     view : View
         What is shown, changed in place.
     recent : paths
-        Rigs opened lately, newest first.
+        Rigs and scenes opened lately, newest first.
     session : Session
         What is open, if anything; only read.
+    has_leftovers : bool
+        Whether there is unsaved work of former windows.
     """
     undo = session.undo_label if session else None
     redo = session.redo_label if session else None
@@ -64,6 +68,10 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
                 explain_item(str(path))
             imgui.end_menu()
         asked = _item(view, Command.OPEN_BUILTIN) or asked
+        asked = _item(view, Command.UNSAVED_WORK, has_leftovers) or asked
+        imgui.separator()
+        for command in (Command.SAVE, Command.SAVE_AS):
+            asked = _item(view, command, session is not None) or asked
         imgui.separator()
         for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT):
             asked = _item(view, command) or asked
@@ -77,6 +85,7 @@ def menu_bar(view: View, recent: Sequence[Path], session: Session | None) -> Req
         close_on_escape()
         asked = _item(view, Command.UNDO, not why_not(Command.UNDO, session), undo) or asked
         asked = _item(view, Command.REDO, not why_not(Command.REDO, session), redo) or asked
+        asked = _item(view, Command.HISTORY, session is not None) or asked
         imgui.separator()
         asked = _item(view, Command.RESET_POSE) or asked
         imgui.separator()

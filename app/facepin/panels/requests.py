@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 from facepin.core.camera import View
+from facepin.core.control import ShapeControl
 from facepin.core.events import KeyPressed
 from facepin.core.pose import Freedom
 from facepin.panels.library_requests import LibraryRequest
@@ -22,7 +23,7 @@ class Command(Enum):
     Menus, keys, the command palette, the keyboard map and their tooltips share this one table.
     """
 
-    OPEN_FILE = "Open file…", ("Ctrl+O",), "File", "Opens a face: .glb, .gltf, .vrm, .npz or .obj."
+    OPEN_FILE = "Open file…", ("Ctrl+O",), "File", "Opens a scene or a face: .glb, .gltf, .vrm, .npz or .obj."
     OPEN_FOLDER = (
         "Open folder of OBJ files…",
         ("Ctrl+Shift+O",),
@@ -36,7 +37,26 @@ class Command(Enum):
         "File",
         "Puts a saved pose on this face; shapes are matched by name, so it may come from another rig.",
     )
-    SAVE_POSE = "Save pose…", ("Ctrl+S",), "File", "Writes weights and pins as .json or .csv."
+    SAVE = (
+        "Save",
+        ("Ctrl+S",),
+        "File",
+        "Writes the scene: pins, weights, panes, cameras, and which rig they are for.",
+    )
+    SAVE_AS = "Save as…", ("Ctrl+Shift+S",), "File", "Writes the scene under another name."
+    LOCATE_RIG = (
+        "Show where the rig is…",
+        (),
+        "File",
+        "For a scene whose rig is not where it was when the scene was saved.",
+    )
+    UNSAVED_WORK = (
+        "Unsaved work…",
+        (),
+        "File",
+        "Lists what was not saved when Facepin was left; it can be taken up again.",
+    )
+    SAVE_POSE = "Save pose…", (), "File", "Writes weights and pins alone as .json or .csv, for other rigs."
     EXPORT = (
         "Export model…",
         ("Ctrl+E",),
@@ -50,9 +70,15 @@ class Command(Enum):
         "File",
         "Saves what the selected pane shows, with its pins and their goals.",
     )
-    QUIT = "Quit", ("Ctrl+Q",), "File", "Leaves; a pose that was not saved is kept for the next start."
+    QUIT = "Quit", ("Ctrl+Q",), "File", "Leaves; what was not saved is kept and offered at the next start."
     UNDO = "Undo", ("Ctrl+Z",), "Edit", "Takes the last change back; a whole drag is one step."
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Edit", "Brings back what was undone."
+    HISTORY = (
+        "History",
+        ("Ctrl+Alt+Z",),
+        "Edit",
+        "Lists every step by its name; a click goes there, back or forth.",
+    )
     RESET_POSE = "Reset the pose", ("Home",), "Edit", "All weights to zero; pins stay on their points."
     SYMMETRY = (
         "Symmetry",
@@ -269,7 +295,7 @@ def command_for(event: KeyPressed, habit: Habit) -> Command | None:
 
 @dataclass(frozen=True)
 class OpenPath:
-    """Open the rig at a path."""
+    """Open the rig, the scene or the pose at a path."""
 
     path: Path
 
@@ -355,6 +381,27 @@ class SelectPins:
 
 
 @dataclass(frozen=True)
+class GoToStep:
+    """Undo or redo to one of the steps of the history."""
+
+    step: int
+
+
+@dataclass(frozen=True)
+class RestoreWork:
+    """Go on with unsaved work that a former window left over."""
+
+    draft: Path
+
+
+@dataclass(frozen=True)
+class DiscardWork:
+    """Throw unsaved work away that a former window left over."""
+
+    draft: Path
+
+
+@dataclass(frozen=True)
 class Choose:
     """Set one of the choices of `panels.view.CHOICES`."""
 
@@ -370,9 +417,23 @@ class PairShapes:
     twin: int | None
 
 
+@dataclass(frozen=True, eq=False)
+class SetControl:
+    """Lock, mute or limit shapes."""
+
+    label: str
+    control: ShapeControl
+    final: bool = True
+
+
+@dataclass(frozen=True)
+class CancelEdit:
+    """Give up what a panel was changing: everything is as it was before."""
+
+
 @dataclass(frozen=True)
 class CancelLoading:
-    """Give up opening a file."""
+    """Give up opening a file, or looking for the rig of a scene."""
 
 
 @dataclass(frozen=True)
@@ -389,12 +450,17 @@ Request = (
     | ClosePane
     | KeepPane
     | RandomReference
+    | GoToStep
+    | RestoreWork
+    | DiscardWork
     | PairShapes
     | Choose
     | SetPins
     | NamePin
     | RemovePins
     | SelectPins
+    | SetControl
+    | CancelEdit
     | CancelLoading
     | CancelJob
     | LibraryRequest

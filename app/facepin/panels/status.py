@@ -17,8 +17,12 @@ def status_line(
     *,
     is_error: bool,
     warnings: Sequence[str] = (),
+    unkept: str = "",
 ) -> None:
-    """Draw the line at the bottom: what is open, how fast it is, and the last message."""
+    """Draw the line at the bottom: what is open, how fast it is, and the last message.
+
+    `unkept` says why unsaved work is in memory only; that stays in sight as long as it is so.
+    """
     height = imgui.get_frame_height() + imgui.get_style().window_padding.y * 0.5
     flags = (
         imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_docking
@@ -46,6 +50,10 @@ def status_line(
             count = f"{len(warnings)} warning" + ("s" if len(warnings) > 1 else "")
             imgui.text_colored(imgui.ImVec4(*theme.accent), count)
             imgui.set_item_tooltip("\n".join(warnings))
+        if unkept:
+            imgui.same_line(0, 2 * imgui.get_font_size())
+            imgui.text_colored(imgui.ImVec4(*theme.warning), "Work is in memory only")
+            imgui.set_item_tooltip(f"{unkept}\nIt is tried again every few seconds.")
         if message:
             imgui.same_line(0, 2 * imgui.get_font_size())
             imgui.text_colored(imgui.ImVec4(*(theme.warning if is_error else theme.text)), message)

@@ -28,9 +28,14 @@ class History(Generic[T]):
         return self._steps[self._at].value
 
     @property
-    def done(self) -> tuple[Step[T], ...]:
-        """The steps up to now, the one that everything began with first."""
-        return tuple(self._steps[: self._at + 1])
+    def steps(self) -> tuple[Step[T], ...]:
+        """All steps, the first and the undone ones among them."""
+        return tuple(self._steps)
+
+    @property
+    def at(self) -> int:
+        """Which of the steps is the current one."""
+        return self._at
 
     @property
     def undo_label(self) -> str | None:
@@ -48,6 +53,13 @@ class History(Generic[T]):
         self._steps.append(Step(label, value))
         del self._steps[: max(0, len(self._steps) - 1 - self._limit)]
         self._at = len(self._steps) - 1
+
+    def go_to(self, at: int) -> bool:
+        """Make step number `at` current, as so many undos or redos would; False when there is none."""
+        if not 0 <= at < len(self._steps):
+            return False
+        self._at = at
+        return True
 
     def undo(self) -> bool:
         """Go one step back; False when there is none."""

@@ -12,7 +12,7 @@ from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
-from facepin.core.pose import Pose, rest_pose
+from facepin.core.pose import Pose, hold_alike, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.edit import Edit
@@ -75,8 +75,17 @@ class Session:
         self._numbers = count(len(panes))
         self._history = History(Work(panes, ShapeControl.of(rig)))
         self._preview: Work | None = None
+        self._preview_label = ""
         self._active = 0
         self._solvers: dict[tuple[int, SolverChoice, ShapeControl], PinSolver] = {}
+
+    @classmethod
+    def resumed(cls, rig: Rig, work: Work, active: int = 0) -> "Session":
+        """Begin where another session ended: with its work, whose panes have numbers 0, 1, 2 and so on."""
+        session = cls(rig, [pane.choice for pane in work.panes])
+        session._history = History(work)
+        session._active = active
+        return session
 
     @property
     def work(self) -> Work:
@@ -143,8 +152,13 @@ class Session:
 
     @property
     def steps(self) -> tuple[Step[Work], ...]:
-        """The undo steps up to now, with what they led to."""
-        return self._history.done
+        """All undo steps, from the beginning to the last that can be redone."""
+        return self._history.steps
+
+    @property
+    def step(self) -> int:
+        """Which of the steps is the current one."""
+        return self._history.at
 
     def apply(self, edit: Edit) -> None:
         """Show an edit, and make it an undo step when it is final.
@@ -240,8 +254,17 @@ class Session:
         self._show(label, replace(self._history.current, reference=kept), final=True)
 
     def compare(self, label: str, weights: Floats, reference: Floats) -> None:
-        """Put weights (k,) on the active pane, to be measured against others (k,), as one step."""
+        """Put weights (k,) on the active pane, to be measured against others (k,), as one step.
+
+        Locks are obeyed and told as by `apply`.
+
+        Raises
+        ------
+        FacepinError
+            When all that differs is locked.
+        """
         before = self._history.current
+        self.message = ""
         panes = self._edited(before, Edit(label, True, weights=weights))
         kept = frozen(reference, np.float64)
         self._show(label, replace(before, panes=panes, reference=kept), final=True)
@@ -255,6 +278,11 @@ class Session:
         """Drop the gesture in progress; the poses are exactly those before it."""
         self._preview = None
 
+    def settle(self) -> None:
+        """Make an undo step of the gesture in progress, since another one begins."""
+        if self._preview is not None:
+            self._show(self._preview_label, self._preview, final=True)
+
     def undo(self) -> bool:
         """Take the gesture in progress back, or else the last undo step; False when there is neither."""
         if self._preview is not None:
@@ -267,8 +295,13 @@ class Session:
         self._preview = None
         return self._history.redo()
 
+    def go_to(self, step: int) -> bool:
+        """Undo or redo to one of the steps; False when there is none of that number."""
+        self._preview = None
+        return self._history.go_to(step)
+
     def _show(self, label: str, work: Work, *, final: bool) -> None:
-        self._preview = None if final else work
+        self._preview, self._preview_label = None if final else work, label
         if final and work is not self._history.current:
             self._history.commit(label, work)
 
@@ -305,6 +338,10 @@ class Session:
             return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
         if edit.solve:
             return self._dragged(panes, poses)
+        if hold_alike(
+            pins, panes[0].pose.pins
+        ):  # the last drag is still what another solver can be asked for
+            return tuple(replace(pane, pose=pose) for pane, pose in zip(panes, poses, strict=True))
         # A new pin holds what is there; but what a removed one made must not fall back with the next drag.
         placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in panes[0].pose.pins}
         return tuple(

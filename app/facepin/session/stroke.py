@@ -51,6 +51,8 @@ class Stroke:
         self.selected = self.before | (frozenset(found) - hidden)
         if new and not self.sight.rig.rows_at([pin.vertex for pin in new]).any():
             self.remark = "No shape of this rig moves the points under the stroke"
+        elif 1 < len(found) < self.count:
+            self.remark = f"{len(found)} pins are laid: the mesh has no more points along so short a line"
         return Edit(f"Sketch {amount(len(new))}", True, (*pins, *new)) if new else None
 
     def _vertices(self) -> list[int]:

@@ -1,0 +1,76 @@
+"""A lock that the system itself takes off when its process ends, however it ends."""
+
+import errno
+import os
+import socket
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+if sys.platform == "win32":
+    import msvcrt
+
+    def _lock(file: int) -> None:
+        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+else:
+    import fcntl
+
+    def _lock(file: int) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+_NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
+"""What file systems without locks answer: some network folders."""
+
+
+class FileLock:
+    """A lock file that is held; a window that finds it held leaves alone what it stands for."""
+
+    def __init__(self, path: Path, file: int) -> None:
+        self._path = path
+        self._file = file
+
+    def release(self) -> None:
+        """Take the lock off, and its file away."""
+        os.close(self._file)
+        with suppress(OSError):  # then an empty file stays, which whoever looks here next takes away
+            self._path.unlink(missing_ok=True)
+
+
+def take_lock(path: Path) -> FileLock | None:
+    """Take the lock at `path`, made where it is missing; None while another process (or window) holds it.
+
+    Where the file system has no locks, the process that is written in the file says whether it is held.
+
+    Raises
+    ------
+    OSError
+        When the file can't be made.
+    """
+    file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        _lock(file)
+    except OSError as error:
+        if error.errno not in _NO_LOCKS or _is_running(os.read(file, 200)):
+            os.close(file)
+            return None
+    with suppress(OSError):  # a full disk: the lock itself takes no room
+        os.ftruncate(file, 0)
+        os.write(file, f"{socket.gethostname()} {os.getpid()}\n".encode())
+    return FileLock(path, file)
+
+
+def _is_running(note: bytes) -> bool:
+    """Say whether the process of a note in a lock file may still be there."""
+    host, _, number = note.decode(errors="replace").strip().rpartition(" ")
+    if not host or not number.isdecimal():
+        return False
+    if host != socket.gethostname():
+        return True
+    try:
+        os.kill(int(number), 0)  # asks only; systems without locks on files are never Windows
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True

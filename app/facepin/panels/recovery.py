@@ -1,0 +1,142 @@
+"""Cards over the picture: unsaved work of former windows, and a scene whose rig is missing."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from imgui_bundle import imgui
+
+from facepin.panels.requests import CancelLoading, Command, DiscardWork, Request, RestoreWork
+from facepin.panels.theme import Theme
+
+MOST_ROWS = 4
+"""Rows that are seen at once; more scroll."""
+
+
+@dataclass
+class RecoveryView:
+    """How the card of unsaved work is shown."""
+
+    shown: bool = False
+    doomed: Path | None = None
+    """The draft that the next press on its Discard throws away."""
+
+
+@dataclass(frozen=True)
+class WorkRow:
+    """Unsaved work, as the card lists it."""
+
+    draft: Path
+    name: str
+    about: str
+    """When, and how much."""
+
+
+def recovery_card(
+    rows: Sequence[WorkRow], view: RecoveryView, left: float, top: float, width: float, theme: Theme
+) -> Request | None:
+    """Draw what can be taken up again; return what the user wants, or None.
+
+    Parameters
+    ----------
+    rows : sequence of WorkRow
+        Newest first, one or more.
+    view : RecoveryView
+        Changed in place.
+    left, top, width : float
+        Where the picture is, in imgui units.
+    theme : Theme
+        Colours.
+    """
+    em = imgui.get_font_size()
+    _card("##recovery", left, top, width, 36 * em)
+    asked: Request | None = None
+    row_height = imgui.get_frame_height() + imgui.get_style().item_spacing.y
+    padding = imgui.get_style().frame_padding.x
+    buttons = [imgui.calc_text_size(word).x + 2 * padding for word in ("Restore", "Really discard")]
+    gap = imgui.get_style().item_spacing.x
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(imgui.ImVec4(*theme.accent), "Unsaved work")
+    imgui.same_line()
+    imgui.text_disabled("Facepin was left before this was saved.")
+    imgui.same_line(imgui.get_window_width() - buttons[1] - imgui.get_style().window_padding.x)
+    if imgui.button("Later", imgui.ImVec2(buttons[1], 0)):
+        view.shown, view.doomed = False, None
+    imgui.set_item_tooltip(f"It stays where it is: File, {Command.UNSAVED_WORK.title}")
+    height = min(len(rows), MOST_ROWS) * row_height - imgui.get_style().item_spacing.y
+    imgui.begin_child("rows", imgui.ImVec2(0, height))
+    for row in rows:
+        imgui.push_id(str(row.draft))
+        imgui.align_text_to_frame_padding()
+        x, end = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x - sum(buttons) - 2 * gap
+        imgui.push_clip_rect(x, imgui.ImVec2(x.x + end, x.y + row_height), True)
+        imgui.text(row.name)
+        imgui.same_line()
+        imgui.text_colored(imgui.ImVec4(*theme.text_dim), row.about)
+        imgui.pop_clip_rect()
+        imgui.same_line(end + gap)
+        if imgui.button("Restore", imgui.ImVec2(buttons[0], 0)):
+            asked = RestoreWork(row.draft)
+        imgui.same_line()
+        if view.doomed == row.draft:
+            imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
+            if imgui.button("Really discard", imgui.ImVec2(buttons[1], 0)):
+                asked = DiscardWork(row.draft)
+                view.doomed = None
+            imgui.pop_style_color()
+        elif imgui.button("Discard", imgui.ImVec2(buttons[1], 0)):
+            view.doomed = row.draft
+        imgui.pop_id()
+    imgui.end_child()
+    imgui.end()
+    return asked
+
+
+def lost_card(
+    line: str, left: float, top: float, width: float, theme: Theme
+) -> Command | CancelLoading | None:
+    """Draw which rig is missing; return what the user does about it, or None.
+
+    Parameters
+    ----------
+    line : str
+        What was looked for and where.
+    left, top, width : float
+        Where the picture is, in imgui units.
+    theme : Theme
+        Colours.
+    """
+    _card("##lost", left, top, width, 36 * imgui.get_font_size())
+    imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
+    imgui.text_wrapped(line)
+    imgui.pop_style_color()
+    imgui.align_text_to_frame_padding()
+    imgui.text_disabled("Drop the rig on the window, or")
+    imgui.same_line()
+    asked: Command | CancelLoading | None = None
+    if imgui.button(Command.LOCATE_RIG.title):
+        asked = Command.LOCATE_RIG
+    imgui.same_line()
+    if imgui.button("Cancel"):
+        asked = CancelLoading()
+    imgui.end()
+    return asked
+
+
+def _card(name: str, left: float, top: float, width: float, widest: float) -> None:
+    """Begin a window at the top of the picture, as wide as it may be."""
+    gap = 0.6 * imgui.get_font_size()
+    imgui.set_next_window_pos(
+        imgui.ImVec2(left + width / 2, top + gap), imgui.Cond_.always, imgui.ImVec2(0.5, 0.0)
+    )
+    imgui.set_next_window_size(imgui.ImVec2(max(min(width - 2 * gap, widest), gap), 0))
+    imgui.begin(
+        name,
+        None,
+        imgui.WindowFlags_.no_decoration
+        | imgui.WindowFlags_.no_saved_settings
+        | imgui.WindowFlags_.no_docking
+        | imgui.WindowFlags_.no_move
+        | imgui.WindowFlags_.no_focus_on_appearing
+        | imgui.WindowFlags_.no_nav,
+    )

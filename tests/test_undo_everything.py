@@ -1,0 +1,229 @@
+"""Whatever is asked for, in whatever order: undo leads back to the very start, redo to the very end."""
+
+import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+import pytest
+
+from facepin.actions import carry_out
+from facepin.core.arrays import Points
+from facepin.core.pose import Pin, as_vector
+from facepin.core.saved_pose import SavedPose
+from facepin.desk import Desk
+from facepin.files.pose_file import write_pose
+from facepin.panels import requests
+from facepin.panels.library_requests import LibraryRequest
+from facepin.panels.requests import Command, Request
+from facepin.panels.view import View
+from facepin.session.edit import Edit
+from facepin.session.session import Session, Work
+from facepin.session.solving import choose
+from facepin.solvers import SOLVERS
+from small_rigs import sheet
+
+RIG = sheet()
+SEQUENCES, LENGTH = 300, 25
+
+ASK_FOR_A_FILE = {
+    Command.OPEN_FILE,
+    Command.OPEN_FOLDER,
+    Command.LOAD_POSE,
+    Command.LOAD_LANDMARKS,
+    Command.SAVE_LANDMARKS,
+    Command.SAVE,
+    Command.SAVE_AS,
+    Command.SAVE_POSE,
+    Command.EXPORT,
+    Command.REFERENCE_FROM_FILE,
+}
+NOT_HERE = {
+    Command.SCREENSHOT,  # draws
+    Command.SAVE_CHART,
+    Command.OPEN_BUILTIN,  # begins another session
+    Command.QUIT,
+    # Need the library of a rig and pictures of it.
+    *(command for command in Command if command.topic == "Poses"),
+}
+
+
+class BareStage:
+    """A stage without graphics."""
+
+    refined = True
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+
+    def update(self) -> bool:
+        return False
+
+    def positions(self, pane: int) -> Points:
+        return RIG.evaluate(self.session.panes[pane].pose.weights)
+
+
+@pytest.fixture
+def desk() -> Desk:
+    """A desk with the sheet on it, without a window."""
+    desk = Desk(None, View(), [], native_dialogs=False, pictures=Path(), drafts=None, chart_writer=None)
+    desk.stage = BareStage(Session(RIG, [choose("transpose")]))
+    return desk
+
+
+def random_pins(random: np.random.Generator) -> tuple[Pin, ...]:
+    vertices = random.choice(RIG.vertex_count, random.integers(0, 5), replace=False).tolist()
+    freedoms = random.choice(["space", "screen"], len(vertices)).tolist()
+    goals = RIG.neutral[vertices] + random.uniform(-0.3, 0.3, (len(vertices), 3))
+    return tuple(
+        Pin(vertex, as_vector(goal), freedom)
+        for vertex, goal, freedom in zip(vertices, goals, freedoms, strict=True)
+    )
+
+
+def some_pins(random: np.random.Generator, session: Session) -> frozenset[int]:
+    """Vertices of some of the pins."""
+    return frozenset(pin.vertex for pin in session.pose.pins if random.integers(2))
+
+
+def random_choice(random: np.random.Generator) -> object:
+    return choose(str(random.choice(list(SOLVERS))), keep_limits=bool(random.integers(2)))
+
+
+Maker = Callable[[np.random.Generator, Session], Request]
+
+MAKERS: dict[type, Maker] = {
+    requests.UseSolver: lambda random, session: requests.UseSolver(
+        int(random.integers(len(session.panes))), random_choice(random), final=bool(random.integers(2))
+    ),
+    requests.AddPane: lambda random, _: requests.AddPane(random_choice(random)),
+    requests.ClosePane: lambda random, session: requests.ClosePane(int(random.integers(len(session.panes)))),
+    requests.KeepPane: lambda random, session: requests.KeepPane(int(random.integers(len(session.panes)))),
+    requests.SelectPane: lambda random, session: requests.SelectPane(
+        int(random.integers(len(session.panes)))
+    ),
+    requests.RandomReference: lambda random, _: requests.RandomReference(int(random.integers(1, 4))),
+    requests.SetPins: lambda random, session: requests.SetPins(
+        some_pins(random, session),
+        freedom=[None, "space", "screen"][random.integers(3)],
+        stiffness=[None, float(random.uniform(0.1, 10))][random.integers(2)],
+        locked=[None, True, False][random.integers(3)],
+        hidden=[None, True, False][random.integers(3)],
+        final=bool(random.integers(2)),
+    ),
+    requests.NamePin: lambda random, session: requests.NamePin(
+        max(some_pins(random, session), default=0), str(random.choice(["", "chin", "lip"]))
+    ),
+    requests.RemovePins: lambda random, session: requests.RemovePins(some_pins(random, session)),
+    requests.SelectPins: lambda random, session: requests.SelectPins(some_pins(random, session)),
+    requests.PairShapes: lambda random, _: requests.PairShapes(
+        int(random.integers(RIG.shape_count)), [None, *range(RIG.shape_count)][random.integers(5)]
+    ),
+    requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),
+}
+"""How a request with something to say is made up."""
+
+ELSEWHERE = {
+    requests.OpenPath,
+    requests.CancelLoading,
+    requests.RestoreWork,
+    requests.DiscardWork,
+    requests.Choose,
+    requests.CancelJob,
+    *get_args(LibraryRequest),
+}
+"""Requests about files and settings, which leave the session alone or begin another.  (A pose that is opened
+is an edit, and what is done to poses of the library is tried as the session sees it.)
+"""
+
+
+def test_every_request_is_tried_here() -> None:
+    assert set(get_args(Request)) == {Command, *MAKERS, *ELSEWHERE}
+
+
+def random_edit(random: np.random.Generator, session: Session) -> None:
+    """What hands and sliders do: a gesture of some steps, which ends, is given up, or goes on."""
+    for final in (*[False] * random.integers(0, 3), bool(random.integers(4))):
+        match random.integers(6):
+            case 5 if final:  # no gesture
+                key = str(random.integers(3))
+                pose = SavedPose(key, "A pose", (), 1.0, random.random(RIG.shape_count), "", {})
+                session.arrange("Arrange", {key: [None, pose][random.integers(2)]})
+            case 4:
+                control = session.control
+                locked, muted, solo = (random.integers(0, 4, RIG.shape_count) == 0 for _ in range(3))
+                limits = control.limits + random.uniform(-0.1, 0.1, (RIG.shape_count, 1))
+                control = dataclasses.replace(control, limits=limits, locked=locked, muted=muted, solo=solo)
+                session.set_control("Control", control, final=final)
+            case 0:
+                session.apply(Edit("Set", final, weights=random.uniform(-0.5, 1.5, RIG.shape_count)))
+            case 1:
+                session.apply(Edit("Place", final, random_pins(random)))
+            case 2:
+                session.apply(
+                    Edit("Load", final, random_pins(random), weights=random.random(RIG.shape_count))
+                )
+            case _:
+                session.apply(Edit("Drag", final, random_pins(random), solve=True))
+    if random.integers(4) == 0:
+        session.cancel()
+
+
+def state(session: Session) -> tuple[Work, list[object]]:
+    """The work, and everything in it by value: nothing may change behind a snapshot either."""
+    work = session.committed
+    control = work.control
+    values: list[object] = [None if work.reference is None else work.reference.tobytes()]
+    values += [flags.tobytes() for flags in (control.limits, control.locked, control.muted, control.solo)]
+    values.append(dict(work.shelf))
+    values.append(None if work.mirror is None else work.mirror.shapes.tobytes())
+    for pane in work.panes:
+        began = None if pane.began is None else (pane.began.weights.tobytes(), pane.began.pins)
+        values += [pane.choice, pane.pose.weights.tobytes(), pane.pose.pins, pane.hand.tobytes(), began]
+    return work, values
+
+
+@pytest.mark.parametrize("part", range(6))
+def test_undo_leads_to_the_start_and_redo_to_the_end(desk: Desk, tmp_path: Path, part: int) -> None:
+    session = desk.session
+    assert session is not None
+    commands = [command for command in Command if command not in ASK_FOR_A_FILE | NOT_HERE]
+    pose = tmp_path / "pose.json"
+    write_pose(pose, RIG, dataclasses.replace(session.pose, weights=np.array([0.1, 0.9, 0.3, 0.5])))
+    makers = [*MAKERS.values(), lambda *_: requests.OpenPath(pose)]
+    steps = 0
+    for seed in range(part, SEQUENCES, 6):
+        random = np.random.default_rng(seed)
+        desk.stage = BareStage(session := Session(RIG, [random_choice(random)]))
+        seen = [state(session)]
+        for _ in range(random.integers(1, LENGTH)):
+            match random.integers(3):
+                case 0:
+                    random_edit(random, session)
+                case 1:
+                    carry_out(commands[random.integers(len(commands))], desk)
+                case _:
+                    carry_out(makers[random.integers(len(makers))](random, session), desk)
+            if session.committed is not seen[session.step][0] if session.step < len(seen) else True:
+                seen[session.step :] = [state(session)]
+        session.cancel()
+        steps += len(session.steps) - 1
+        while session.step > 0:
+            assert session.undo()
+            assert state(session) == seen[session.step]
+        assert not session.undo()
+        assert session.committed is seen[0][0]
+        while session.redo():
+            assert state(session) == seen[session.step]
+        assert session.committed is seen[-1][0]
+    assert steps > 2 * SEQUENCES / 6
+
+
+@pytest.mark.parametrize("command", sorted(ASK_FOR_A_FILE, key=lambda command: command.name))
+def test_what_asks_for_a_file_changes_nothing_by_asking(desk: Desk, command: Command) -> None:
+    before = state(desk.session)
+    carry_out(command, desk)
+    assert desk.dialog is not None
+    assert state(desk.session) == before
+    assert desk.session.step == 0

@@ -28,7 +28,7 @@ GLOSSY = 0.3
 """Roughness below which a highlight is too small to be computed at vertices."""
 WET = 0.15
 """Roughness below which the lamps themselves are seen in a surface."""
-EYES_OF_CLAY = 1.35
+EYES_OF_CLAY = 1.8
 """How much lighter eyes are than other clay; their irises stay darker, to tell where they look."""
 
 _SRGB_ALPHA = 0x8C43
@@ -92,7 +92,8 @@ class Shaders:
             made.repeat_x, made.repeat_y = texture.repeats
             made.build_mipmaps()
             made.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
-            made.anisotropy = 8.0
+            if self._ctx.max_anisotropy > 1:
+                made.anisotropy = min(8.0, float(self._ctx.max_anisotropy))
             self._pictures[texture] = made
         return self._pictures[texture]
 

@@ -13,6 +13,8 @@ from facepin.core.arrays import Points
 from facepin.core.pose import Pin, as_vector
 from facepin.desk import Desk
 from facepin.files.pose_file import write_pose
+from facepin.library import Library
+from facepin.panels import library_requests as shelf
 from facepin.panels import requests
 from facepin.panels.requests import Command, Request
 from facepin.panels.view import View
@@ -35,11 +37,16 @@ ASK_FOR_A_FILE = {
     Command.SAVE_AS,
     Command.SAVE_POSE,
     Command.EXPORT,
+    Command.TAKE_POSES,
     Command.REFERENCE_FROM_FILE,
 }
 NOT_HERE = {
     Command.SCREENSHOT,  # draws
     Command.SAVE_CHART,
+    Command.CONTACT_SHEET,
+    Command.POSE_PICTURES,
+    Command.TURNTABLE,
+    Command.SAVE_FILMSTRIP,
     Command.OPEN_BUILTIN,  # begins another session
     Command.QUIT,
 }
@@ -61,10 +68,11 @@ class BareStage:
 
 
 @pytest.fixture
-def desk() -> Desk:
+def desk(tmp_path: Path) -> Desk:
     """A desk with the sheet on it, without a window."""
     desk = Desk(None, View(), [], native_dialogs=False, pictures=Path(), drafts=None, chart_writer=None)
     desk.stage = BareStage(Session(RIG, [choose("transpose")]))
+    desk.library = Library(desk.stage.session, tmp_path / "poses", "")
     return desk
 
 
@@ -85,6 +93,14 @@ def some_pins(random: np.random.Generator, session: Session) -> frozenset[int]:
 
 def random_choice(random: np.random.Generator) -> object:
     return choose(str(random.choice(list(SOLVERS))), keep_limits=bool(random.integers(2)))
+
+
+POSES = ("smile", "frown", "gone")
+"""Keys of poses in the library, and one that is not there."""
+
+
+def key(random: np.random.Generator) -> str:
+    return POSES[random.integers(len(POSES))]
 
 
 Maker = Callable[[np.random.Generator, Session], Request]
@@ -116,6 +132,14 @@ MAKERS: dict[type, Maker] = {
     requests.PairShapes: lambda random, _: requests.PairShapes(
         int(random.integers(RIG.shape_count)), [None, *range(RIG.shape_count)][random.integers(5)]
     ),
+    shelf.SavePose: lambda random, _: shelf.SavePose("Another", ("new",)),
+    shelf.ApplyPose: lambda random, _: shelf.ApplyPose(key(random), bool(random.integers(2))),
+    shelf.LabelPose: lambda random, _: shelf.LabelPose(key(random), f"Pose {random.integers(3)}", ()),
+    shelf.MovePose: lambda random, _: shelf.MovePose(key(random), random.choice([None, *POSES])),
+    shelf.ReplacePose: lambda random, _: shelf.ReplacePose(key(random)),
+    shelf.RemovePoses: lambda random, _: shelf.RemovePoses((key(random),)),
+    shelf.ComparePoses: lambda random, _: shelf.ComparePoses(key(random), key(random)),
+    shelf.StopBlending: lambda *_: shelf.StopBlending(),
     requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),
 }
 """How a request with something to say is made up."""
@@ -126,6 +150,7 @@ ELSEWHERE = {
     requests.RestoreWork,
     requests.DiscardWork,
     requests.Choose,
+    requests.CancelJob,
 }
 """Requests about files and settings, which leave the session alone or begin another.  (A pose that is opened
 is an edit.)
@@ -160,6 +185,11 @@ def random_edit(random: np.random.Generator, session: Session) -> None:
         session.cancel()
 
 
+def titles(library: Library) -> list[tuple[str, str]]:
+    """What the library holds, in order; poses that were saved meanwhile are no part of what is undone."""
+    return [(pose.key, pose.title) for pose in library.poses if pose.key in POSES]
+
+
 def state(session: Session) -> tuple[Work, list[object]]:
     """The work, and everything in it by value: nothing may change behind a snapshot either."""
     work = session.committed
@@ -167,6 +197,7 @@ def state(session: Session) -> tuple[Work, list[object]]:
     values: list[object] = [None if work.reference is None else work.reference.tobytes()]
     values += [flags.tobytes() for flags in (control.limits, control.locked, control.muted, control.solo)]
     values.append(None if work.mirror is None else work.mirror.shapes.tobytes())
+    values.append(dict(work.shelf))
     for pane in work.panes:
         began = None if pane.began is None else (pane.began.weights.tobytes(), pane.began.pins)
         values += [pane.choice, pane.pose.weights.tobytes(), pane.pose.pins, pane.hand.tobytes(), began]
@@ -180,12 +211,17 @@ def test_undo_leads_to_the_start_and_redo_to_the_end(desk: Desk, tmp_path: Path,
     commands = [command for command in Command if command not in ASK_FOR_A_FILE | NOT_HERE]
     pose = tmp_path / "pose.json"
     write_pose(pose, RIG, dataclasses.replace(session.pose, weights=np.array([0.1, 0.9, 0.3, 0.5])))
+    poses = tmp_path / "poses"
+    for title in POSES[:2]:
+        desk.library.save(session.pose, title, ())
     makers = [*MAKERS.values(), lambda *_: requests.OpenPath(pose)]
     steps = 0
     for seed in range(part, SEQUENCES, 6):
         random = np.random.default_rng(seed)
         desk.stage = BareStage(session := Session(RIG, [random_choice(random)]))
-        seen = [state(session)]
+        library = desk.library = Library(session, poses, "")
+        library.read_all()
+        seen, at_first = [state(session)], titles(library)
         for _ in range(random.integers(1, LENGTH)):
             match random.integers(3):
                 case 0:
@@ -202,10 +238,14 @@ def test_undo_leads_to_the_start_and_redo_to_the_end(desk: Desk, tmp_path: Path,
             assert session.undo()
             assert state(session) == seen[session.step]
         assert not session.undo()
+        assert titles(library) == at_first
         assert session.committed is seen[0][0]
         while session.redo():
             assert state(session) == seen[session.step]
         assert session.committed is seen[-1][0]
+        session.go_to(0)
+        desk.sync()
+        assert {path.stem for path in poses.glob("*.json")} >= {key for key, _ in at_first}
     assert steps > 2 * SEQUENCES / 6
 
 

@@ -8,6 +8,7 @@ from generator.archive import write_archive
 from generator.assembly import arrays, build_model
 from generator.character import build_character
 from generator.characters import CHARACTERS, PRODUCTION
+from generator.checks import moved_share
 
 FACES = Path(__file__).resolve().parent / "faces"
 
@@ -19,6 +20,7 @@ def main() -> None:
         "names", nargs="*", metavar="NAME", help=f"which ones: {', '.join(CHARACTERS)} (default: all)"
     )
     parser.add_argument("--out", type=Path, default=FACES, help="folder to write to (default: assets/faces)")
+    parser.add_argument("--shares", action="store_true", help="print the share of vertices each shape moves")
     options = parser.parse_args()
     unknown = [name for name in options.names if name not in CHARACTERS]
     if unknown:
@@ -29,6 +31,9 @@ def main() -> None:
         write_archive(path, arrays(model))
         counts = f"{len(model.character.vertices)} vertices, {len(model.names)} shapes"
         sys.stdout.write(f"{path}: {counts}, {path.stat().st_size / 1e6:.1f} MB\n")
+        if options.shares:
+            for k, shape in enumerate(model.names):
+                sys.stdout.write(f"{moved_share(model, k):8.1%} {shape}\n")
 
 
 if __name__ == "__main__":

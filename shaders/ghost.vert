@@ -2,14 +2,14 @@
 // Another pose, to be compared with the face: a shell that shines at its rim.  Its light is soft, so computing it
 // at vertices is enough.
 
-#include "studio.glsl"
-
 uniform mat4 to_view;
 uniform mat4 to_clip;
 
 in vec3 position;
 #ifndef DEPTH_ONLY
 in vec3 normal;
+uniform vec3 key;   // direction to the key light, as the camera sees it
+
 in vec4 albedo;   // linear base colour; a: how open to the sky
 
 centroid out vec4 shell;
@@ -31,7 +31,7 @@ void main()
     float rim = 1.0 - abs(facing), edge = rim * rim * (1.5 - 0.5 * rim);
     // Lips, brows and creases are darker, so that they can be told.
     float tone = sqrt(dot(albedo.rgb, vec3(0.21, 0.72, 0.07)) * albedo.a);
-    float light = min((0.75 + 0.30 * dot(n, KEY)) * (0.30 + 0.90 * tone), 1.0);
+    float light = min((0.75 + 0.30 * dot(n, key)) * (0.30 + 0.90 * tone), 1.0);
     shell = vec4(mix(COLOUR * light, vec3(1.0), 0.3 * edge), VEIL + SHINE * edge);
     depth = vec2(-at.z, max(abs(facing), 0.05));
 #endif

@@ -5,23 +5,21 @@
 #include "colour.glsl"
 #include "studio.glsl"
 
-uniform mat4 to_view;
-uniform mat4 to_clip;
-uniform vec3 sky;
-uniform vec3 tint;
-uniform float roughness;
-uniform float facing;   // 1 when front sides are drawn, -1 when back sides are
+uniform mat4 to_picture;   // from the world to clip space
+uniform vec3 eye;
+uniform vec4 paint;        // rgb multiplies the vertex colour, of which there is a
+uniform float facing;      // 1 when front sides are drawn, -1 when back sides are
 
 in vec3 position;
-in vec3 normal;
-in vec4 albedo;
+in vec3 normal;    // any length
+in vec4 albedo;    // linear base colour; a: how open to the room
+in vec3 towards;   // where it opens to
 
 out vec3 lit;
 
 void main()
 {
-    vec4 at = to_view * vec4(position, 1.0);
-    vec3 n = normalize(mat3(to_view) * normal) * facing;
-    lit = picture(studio(n, normalize(-at.xyz), sky, albedo.rgb * tint, roughness, albedo.a));
-    gl_Position = to_clip * at;
+    vec3 colour = mix(vec3(1.0), albedo.rgb, paint.a) * paint.rgb;
+    lit = picture(studio(facing * normalize(normal), normalize(eye - position), colour, albedo.a, towards));
+    gl_Position = to_picture * vec4(position, 1.0);
 }

@@ -1,54 +1,60 @@
-// Three soft lights and a room.  Directions are in view space: x right, y up, z to the eye, so that the lights
-// travel with the camera and every view is well lit.
+// Four soft lamps and a room.  Directions are those of the world; the lamps travel with the camera (see
+// gpu/lamps.py), so that every view is well lit.
 
-const vec3 KEY = normalize(vec3(-0.60, 0.70, 0.80)), KEY_LIGHT = vec3(1.20, 1.12, 1.02);
-const vec3 FILL = normalize(vec3(0.90, 0.10, 0.62)), FILL_LIGHT = vec3(0.17, 0.21, 0.28);
-const vec3 RIM = normalize(vec3(0.80, 0.45, -0.75)), RIM_LIGHT = vec3(0.62, 0.71, 0.87);
-const vec3 BACK = normalize(vec3(-0.95, 0.15, -0.55)), BACK_LIGHT = vec3(0.42, 0.36, 0.31);
-const vec3 SKY_LIGHT = vec3(0.30, 0.32, 0.37), GROUND_LIGHT = vec3(0.150, 0.125, 0.110);
+uniform mat4x3 lamps;     // unit vectors to the key, the fill, the rim and the back light
+uniform vec3 scatter;     // how far light spreads under the surface before it comes out, colour by colour
+uniform vec3 gather;      // 1 / (1 + scatter)
+uniform float roughness;
+uniform float reflects;   // share of the light that is reflected straight ahead
 
-// Diffuse light that reaches round the terminator.  What scatters more reaches further, colour by colour: skin
-// turns red there, hair does not.
-vec3 wrapped(float nl, vec3 wrap)
+const vec3 KEY_LIGHT = vec3(1.50, 1.39, 1.27), FILL_LIGHT = vec3(0.17, 0.21, 0.28);
+const vec3 RIM_LIGHT = vec3(0.62, 0.71, 0.87), BACK_LIGHT = vec3(0.42, 0.36, 0.31);
+const vec3 SKY_LIGHT = vec3(0.19, 0.21, 0.25), GROUND_LIGHT = vec3(0.105, 0.090, 0.080);
+
+// How much of each lamp a point sees.  `open`: share of the room; `towards`: where it opens to.
+vec4 lamps_seen(float open, vec3 towards)
 {
-    vec3 d = max((nl + wrap) / (1.0 + wrap), 0.0);
-    return d * mix(vec3(1.0), d, 0.5);
+    return clamp(open + towards * lamps, 0.0, 1.0);
 }
 
-// GGX (Walter 2007) with the visibility term of Karis; multiplied by the cosine.
-float glint(vec3 n, vec3 to_eye, vec3 to_light, float nl, float a2)
+vec3 room_light(float up)
 {
-    vec3 h = normalize(to_eye + to_light);
-    float nh = max(dot(n, h), 0.0), lh = max(dot(to_light, h), 0.1);
-    float d = nh * nh * (a2 - 1.0) + 1.0;
-    return max(nl, 0.0) * a2 / (d * d * lh * lh * (sqrt(a2) * 4.0 + 2.0));
+    return mix(GROUND_LIGHT, SKY_LIGHT, 0.5 * up + 0.5);
 }
 
-// Light that a point sends to the eye.  `open`: share of the room that the point sees.
-vec3 studio(vec3 n, vec3 to_eye, vec3 sky, vec3 albedo, float roughness, float open)
+// Diffuse light that reaches round the terminator; skin turns red there, hair does not.
+vec3 wrapped(float nl)
 {
-    albedo = min(albedo, 0.8);   // nothing is whiter than snow
-    open *= 0.35 + 0.65 * open;   // most light comes from in front, not from all around
+    vec3 d = max((nl + scatter) * gather, 0.0);
+    return d * (0.5 + 0.5 * d);
+}
+
+// Light that a point sends to the eye.
+vec3 studio(vec3 n, vec3 to_eye, vec3 albedo, float open, vec3 towards)
+{
+    // Nothing is whiter than snow, nor blacker than black as samples beyond the edge of a triangle guess.
+    albedo = clamp(albedo, 0.0, 0.8);
+    open = clamp(open, 0.0, 1.0);
+    vec4 nl = n * lamps, seen = lamps_seen(open, towards);
+
+    // Shadows of soft lamps are soft, and under skin light spreads into them.
+    seen *= seen;
+    vec3 key_seen = seen.x + scatter * (seen.x - seen.x * seen.x);
+    vec2 behind = max(0.87 * nl.zw + 0.13, 0.0) * seen.zw;
+    vec3 diffuse = key_seen * KEY_LIGHT * wrapped(nl.x) + seen.y * FILL_LIGHT * wrapped(nl.y)
+                 + behind.x * behind.x * RIM_LIGHT + behind.y * behind.y * BACK_LIGHT;
     // What bounces about in a cavity takes on its colour: skin is red, not black, in its folds.
-    vec3 room = open / (1.0 - albedo * (1.0 - open));
-    vec3 lamps = mix(room, vec3(1.0), 0.35 * open);
-    float key = dot(n, KEY), fill = dot(n, FILL);
-    vec3 wrap = 0.45 * albedo, thin = 0.2 * albedo;
-    vec3 diffuse = lamps * (KEY_LIGHT * wrapped(key, wrap) + FILL_LIGHT * wrapped(fill, wrap)
-                 + RIM_LIGHT * wrapped(dot(n, RIM), thin) + BACK_LIGHT * wrapped(dot(n, BACK), thin));
-    vec3 around = mix(GROUND_LIGHT, SKY_LIGHT, dot(n, sky) * 0.5 + 0.5);
-    diffuse += room * around;
+    open *= 0.35 + 0.65 * open;   // most of the room's light comes from in front, not from all around
+    vec3 around = room_light(n.y);
+    diffuse += around * (open / (1.0 - albedo * (1.0 - open)));
 
-    float a = roughness * roughness, a2 = a * a;
-    float edge = 1.0 - max(dot(n, to_eye), 0.0), edge2 = edge * edge;
-    float fresnel = 0.04 + 0.96 * edge2 * edge2 * edge;
-    vec3 shine = 0.04 * (KEY_LIGHT * glint(n, to_eye, KEY, key, a2) + FILL_LIGHT * glint(n, to_eye, FILL, fill, a2));
-    shine += around * fresnel * (1.0 - 0.6 * roughness);
-    if (roughness < 0.15) {
-        // Wet: the lamps themselves are seen, a large one and its small companion.
-        vec3 mirrored = reflect(-to_eye, n);
-        shine += KEY_LIGHT * smoothstep(0.968, 0.978, dot(mirrored, KEY))
-               + FILL_LIGHT * 1.5 * smoothstep(0.990, 0.994, dot(mirrored, FILL));
-    }
-    return albedo * diffuse + shine * open;
+    // GGX (Walter 2007) with Karis' visibility term, of both lamps in front, without the half vectors.
+    float a = roughness * roughness, nv = max(dot(n, to_eye), 0.0);
+    vec2 near = max(1.0 + (to_eye * lamps).xy, 0.02), h = nv + nl.xy, d = (a * a - 1.0) * h * h + 2.0 * near;
+    vec2 glint = max(nl.xy, 0.0) * seen.xy * (8.0 * a * a / (4.0 * a + 2.0)) * near / (d * d);
+    vec3 shine = reflects * (KEY_LIGHT * glint.x + FILL_LIGHT * glint.y);
+    float edge = 1.0 - nv, edge2 = edge * edge;
+    float fresnel = reflects + (1.0 - reflects) * edge2 * edge2 * edge;
+    shine += around * (fresnel * (1.0 - roughness) * (1.0 - roughness) * open);
+    return albedo * diffuse + shine;
 }

@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 from facepin.core.errors import FacepinError
+from facepin.core.quality import LEVELS
 from facepin.core.rig_builder import build_rig
+from facepin.core.shading import MODES
 from facepin.figures import bench
 from facepin.figures.animator import FRAMES, Protocol
 from facepin.figures.bench import as_json, as_tables, machine, measure
+from facepin.figures.frame_times import frame_times, frames_as_table
 from facepin.gpu.picture import open_context
 from facepin.session.solving import PinSolver, choose
 from facepin.solvers import SOLVERS
@@ -70,7 +73,7 @@ def test_a_rig_that_does_not_move_is_refused() -> None:
 def test_json_is_the_documented_shape() -> None:
     row = measure(sheet(), protocol=FEW)
     document = json.loads(json.dumps(as_json(machine(), [row])))
-    assert set(document) == {"machine", "rows"} and "no OpenGL" in document["machine"]
+    assert set(document) == {"machine", "rows", "frames"} and "no OpenGL" in document["machine"]
     counts = ["vertices", "edges", "faces", "shapes", "pins"]
     assert list(document["rows"][0]) == ["rig", *counts, "t_pin", "t_edit", "parts"]
     assert list(document["rows"][0]["parts"]) == ["solve", "deform", "normals", "upload", "draw"]
@@ -98,6 +101,22 @@ def test_the_tables_fit_a_terminal_and_show_the_papers_times() -> None:
     assert times == ["2.00", "1750", "1.00", "15.0", "0.10", "0.20", "0.30", "-", "-"]
 
 
+def test_every_mode_is_drawn_at_every_level(ctx: moderngl.Context) -> None:
+    from rich.console import Console
+
+    times = frame_times(sheet(), ctx, (160, 90))
+    assert [(time.mode, time.quality) for time in times] == [
+        (mode, quality) for mode in MODES for quality in LEVELS
+    ]
+    assert all(time.seconds > 0 and time.samples <= LEVELS[time.quality].samples for time in times)
+    (first, *_) = as_json("a machine", [], times)["frames"]
+    assert list(first) == ["rig", "mode", "quality", "samples", "seconds"]
+    written = StringIO()
+    Console(width=80, file=written).print(frames_as_table(times, (160, 90)))
+    lines = [line.split() for line in written.getvalue().splitlines() if line.strip().startswith("sheet")]
+    assert [(line[1], len(line)) for line in lines] == [(mode, 2 + len(LEVELS)) for mode in MODES]
+
+
 def test_the_command_measures_stand_ins_and_rigs(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -108,9 +127,12 @@ def test_the_command_measures_stand_ins_and_rigs(
         return bench.BenchRow(measured[-1], 1, 1, 1, 1, 1, 1.0, 1.0, bench.Parts(1.0, 1.0, 1.0, 1.0, 1.0))
 
     monkeypatch.setattr(bench, "measure", quick)
+    drawn: list[str] = []
+    monkeypatch.setattr(bench, "frame_times", lambda rig, ctx, size: drawn.append(rig.name) or [])
     parser = ArgumentParser()
     bench.add_options(parser)
     bench.run(parser.parse_args(["--json"]))
     rows = json.loads(capsys.readouterr().out)["rows"]
     assert [row["rig"] for row in rows] == measured
     assert measured[:5] == [f"stand-in for Face {i}" for i in range(1, 6)] and len(measured) == 6
+    assert drawn == measured[5:]

@@ -1,7 +1,7 @@
 """The built-in faces: the files are what the generator makes, and an animator can work with them."""
 
 import sys
-from itertools import combinations
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +9,12 @@ import pytest
 
 ASSETS = Path(__file__).resolve().parents[1] / "assets"
 BLINKS = np.arange(0.1, 1.01, 0.1)
-LID_COMPANIONS = ("eyeLookUp", "eyeLookDown", "eyeLookIn", "eyeLookOut", "eyeSquint", "eyeWide", "browDown")
+GAZES = [
+    {name + "Left": 1 if "" in pair else 0.7 for name in pair if name}
+    for pair in product(("", "eyeLookUp", "eyeLookDown"), ("", "eyeLookIn", "eyeLookOut"))
+]
+"""Straight on, the four directions, and between them."""
+LID_COMPANIONS = ("eyeSquint", "eyeWide", "browDown", "cheekSquint", "mouthSmile")
 CLOSED_MOUTHS = (
     {"jawOpen": 1, "mouthClose": 1},
     {"jawOpen": 0.5, "mouthClose": 0.5},
@@ -20,7 +25,9 @@ CLOSED_MOUTHS = (
     {"mouthSmile": 1},
     {"mouthFrown": 1},
     {"mouthPress": 1},
+    {"mouthSmile": 1, "mouthPress": 0.6},
 )
+BEHIND_THE_LIPS = ("teethUpper", "teethLower", "gums", "tongue")
 EXPRESSIONS = {
     "joy": {
         "mouthSmile": 0.95,
@@ -42,6 +49,8 @@ EXPRESSIONS = {
     "smirk": {"mouthSmileLeft": 0.85, "mouthDimpleLeft": 0.5, "mouthLeft": 0.25, "browOuterUpLeft": 0.7},
     "doubt": {"browDownLeft": 0.8, "browOuterUpRight": 0.9, "mouthRight": 0.6, "mouthShrugLower": 0.5},
     "sleepy": {"eyeBlink": 0.6, "eyeLookDown": 0.5, "jawOpen": 0.1},
+    "oh": {"jawOpen": 0.7, "mouthFunnel": 0.8, "browOuterUp": 0.4},
+    "oo": {"jawOpen": 0.35, "mouthPucker": 0.9},
     "yawn": {"jawOpen": 1, "eyeBlink": 0.9, "browInnerUp": 0.6, "mouthFunnel": 0.3},
     "whistle": {"mouthPucker": 0.8, "mouthFunnel": 0.4, "eyeLookUp": 0.7, "browOuterUp": 0.5},
     "sealed": {"mouthPress": 0.8, "mouthRollLower": 0.5, "mouthRollUpper": 0.5, "browDown": 0.3},
@@ -105,6 +114,27 @@ def test_size_and_names(model):
     assert len(set(model.names)) == len(model.names)
 
 
+def test_every_part_is_there_with_its_colours(model):
+    from generator.character import MATERIALS
+    from generator.checks import part_triangles
+
+    character = model.character
+    for part in MATERIALS:
+        assert len(part_triangles(model, part)), part
+    assert np.isfinite(character.colours).all()
+    assert character.colours.min() >= 0
+    assert character.colours.max() <= 1
+    for side, sign in (("eyeL", 1), ("eyeR", -1)):
+        eye, place = character.anatomy.eye, character.place(side)
+        away = place - np.array(eye.centre) * (sign, 1, 1)
+        angle = np.arctan2(np.hypot(away[:, 0], away[:, 1]), away[:, 2])
+        colours = character.colours[character.at(side)]
+        assert colours[angle < eye.pupil - 0.02].max() < 0.05
+        iris = colours[(angle > eye.pupil + 0.05) & (angle < eye.iris - 0.1)]
+        assert (iris.max(1) - iris.min(1)).min() > 0.1
+        assert colours[(angle > eye.iris + 0.05) & (angle < 0.8)].min() > 0.6
+
+
 def test_production_character_has_many_shapes_and_all_fit_in_the_package():
     with np.load(ASSETS / "faces" / "mira.npz", allow_pickle=False) as stored:
         assert len(stored["names"]) > 120
@@ -119,48 +149,74 @@ def test_left_and_right_are_mirror_images(model):
     assert shapes < 1e-5 * height(model)
 
 
-def test_no_slivers_and_nothing_inverted(model):
-    from generator.checks import flipped, triangle_quality, visible_skin
+def test_no_slivers_and_nothing_inverted_torn_or_bunched(model):
+    from generator.checks import edges_of, flipped, stretch, triangle_quality, visible_skin
 
-    triangles = model.character.triangles
-    skin = visible_skin(model)
-    assert triangle_quality(model.character.vertices, triangles).min() > 0.02
-    assert triangle_quality(model.character.vertices, triangles[skin]).min() > 0.08
+    neutral, triangles = model.character.vertices, model.character.triangles
+    skin = triangles[visible_skin(model)]
+    edges = edges_of(skin)
+    assert triangle_quality(neutral, triangles).min() > 0.02
+    assert triangle_quality(neutral, skin).min() > 0.08
     for name in model.names:
         posed = model.posed({name: 1})
-        assert flipped(model, posed) == 0, name
-        assert triangle_quality(posed, triangles[skin]).min() > 0.02, name
+        assert flipped(neutral, posed, skin) == 0, name
+        assert triangle_quality(posed, skin).min() > 0.02, name
+        longer = stretch(neutral, posed, edges)
+        assert longer.min() > 0.12, name
+        assert longer.max() < 5, name
 
 
 def test_lids_close_without_gap_or_poke(model):
     from generator.checks import lid_clearance, lid_gap
 
-    assert lid_gap(model, model.posed({"eyeBlinkLeft": 1})) < 0.01
-    for blink in BLINKS:
-        assert lid_clearance(model, model.posed({"eyeBlinkLeft": blink})) > 0, blink
-        for other in LID_COMPANIONS:
-            posed = model.posed({"eyeBlinkLeft": blink, other + "Left": 1})
+    others = [*GAZES, *({name + "Left": 1} for name in LID_COMPANIONS)]
+    for other in others:
+        for blink in (0, *BLINKS):
+            posed = model.posed({**other, "eyeBlinkLeft": blink})
             assert lid_clearance(model, posed) > 0, (blink, other)
-    for other in LID_COMPANIONS:
-        assert lid_clearance(model, model.posed({other + "Left": 1})) > 0, other
-        assert lid_gap(model, model.posed({"eyeBlinkLeft": 1, other + "Left": 1})) < 0.01, other
-    for up_or_down, in_or_out in (pair for pair in combinations(LID_COMPANIONS[:4], 2) if pair[0][7] in "UD"):
-        posed = model.posed({up_or_down + "Left": 0.7, in_or_out + "Left": 0.7})
-        assert lid_clearance(model, posed) > 0, (up_or_down, in_or_out)
+        assert lid_gap(model, posed) < 0.01, other
+
+
+def test_every_step_of_a_blink_closes_the_eye_further(model):
+    from generator.checks import lid_gap
+
+    gaps = [lid_gap(model, model.posed({"eyeBlinkLeft": blink})) for blink in (0, *BLINKS)]
+    assert np.all(np.diff(gaps) < 0)
+    assert gaps[5] < 0.6 * gaps[0]
 
 
 def test_lips_meet_and_do_not_cross(model):
-    from generator.checks import lip_gap, uncovered
+    from generator.checks import crossings, lip_gap, lips, part_triangles, uncovered
 
-    for weights in ({}, *CLOSED_MOUTHS):
+    upper, lower = lips(model)
+    both = np.concatenate([upper, lower])
+    behind = np.concatenate([part_triangles(model, part) for part in BEHIND_THE_LIPS])
+    for weights in ({}, *CLOSED_MOUTHS, {"mouthFunnel": 1}):
         posed = model.posed(weights)
         lowest, highest = lip_gap(model, posed)
         assert lowest > 0, weights
-        assert highest < 0.02, weights
+        assert highest < 0.02 or "mouthFunnel" in weights, weights
         assert uncovered(model, posed) < 0, weights
-    lowest, _ = lip_gap(model, model.posed({"mouthFunnel": 1}))
-    assert lowest > 0
-    assert uncovered(model, model.posed({"mouthFunnel": 1})) < 0
+        assert crossings(posed, upper, lower) == 0, weights
+        assert crossings(posed, both, behind) == 0, weights
+
+
+def test_tongue_comes_out_between_the_lips(model):
+    from generator.checks import crossings, lips, part_triangles
+
+    posed = model.posed({"tongueOut": 1})
+    tongue = part_triangles(model, "tongue")
+    assert posed[tongue, 2].max() > posed[np.concatenate(lips(model)), 2].max()
+    assert crossings(posed, np.concatenate(lips(model)), tongue) == 0
+    for jaw in ("teethUpper", "teethLower"):
+        assert crossings(posed, part_triangles(model, jaw), tongue) == 0, jaw
+
+
+def test_brows_neither_float_nor_sink(model):
+    from generator.checks import brow_slip
+
+    for name in ("browDownLeft", "browInnerUp", "browOuterUpLeft", "eyeBlinkLeft", "noseSneerLeft"):
+        assert brow_slip(model, model.posed({name: 1})) < 0.1, name
 
 
 def test_shapes_are_local(model):
@@ -172,10 +228,22 @@ def test_shapes_are_local(model):
 
 @pytest.mark.parametrize("name", EXPRESSIONS)
 def test_expressions_stay_clean(model, name):
-    from generator.checks import flipped, lid_clearance, triangle_quality, visible_skin
+    from generator.checks import (
+        crossings,
+        flipped,
+        lid_clearance,
+        lips,
+        part_triangles,
+        triangle_quality,
+        visible_skin,
+    )
 
-    posed = model.posed(EXPRESSIONS[name])
-    skin = visible_skin(model)
-    assert flipped(model, posed) <= 4
-    assert triangle_quality(posed, model.character.triangles[skin]).min() > 0.015
+    neutral, posed = model.character.vertices, model.posed(EXPRESSIONS[name])
+    skin = model.character.triangles[visible_skin(model)]
+    assert flipped(neutral, posed, skin) <= 4
+    assert triangle_quality(posed, skin).min() > 0.015
     assert lid_clearance(model, posed) > 0
+    upper, lower = lips(model)
+    assert crossings(posed, upper, lower) == 0
+    teeth = [part_triangles(model, part) for part in ("teethUpper", "teethLower")]
+    assert crossings(posed, np.concatenate([upper, lower]), np.concatenate(teeth)) == 0

@@ -13,6 +13,7 @@ from scipy.optimize import lsq_linear
 
 from facepin.__main__ import main
 from facepin.core.rig import Rig
+from facepin.core.shading import MODES
 from facepin.files import open_rig, write_model
 from facepin.solvers import SOLVERS
 from small_rigs import sheet
@@ -161,6 +162,26 @@ def test_render_draws_the_asked_size_and_view(small: Path, tmp_path: Path) -> No
         assert abs(covered - share) < 0.2
 
 
+def test_render_shades_and_shows_pins_as_asked(small: Path, tmp_path: Path) -> None:
+    pins = '[{"vertex": 40, "move": [0, 0, 0]}]'
+    weights = '{"shape0": 1.0}'
+    pose = tmp_path / "pose.json"
+    pose.write_text(f'{{"format": "facepin-pose", "version": 1, "weights": {weights}, "pins": {pins}}}')
+
+    def render(*words: str) -> np.ndarray:
+        out = str(tmp_path / "x.png")
+        assert main(["render", str(small), "--pose", str(pose), "--size", "90x60", *words, "--out", out]) == 0
+        return np.asarray(Image.open(out).convert("RGB")).astype(int)
+
+    looks = [render("--shading", mode) for mode in MODES if mode != "clay"]  # what this rig is made of anyway
+    looks += [render("--pins-shown"), render("--pins-shown", "--scale", "2"), render("--supersampling", "2")]
+    for at, one in enumerate(looks):
+        assert one.shape == (60, 90, 3)
+        for other in looks[:at]:
+            assert np.abs(one - other).max() > 3
+    np.testing.assert_array_equal(looks[0], render())
+
+
 @pytest.mark.parametrize("suffix", [".glb", ".obj", ".ply", ".stl"])
 def test_export_writes_the_posed_face(small: Path, tmp_path: Path, suffix: str) -> None:
     (tmp_path / "pose.json").write_text(
@@ -187,6 +208,9 @@ def test_export_writes_the_posed_face(small: Path, tmp_path: Path, suffix: str) 
         (["solve", "RIG", "--pins", "PINS", "--set", "beta=1"], "beta"),
         (["render", "RIG", "--size", "0x10", "--out", "x.png"], "--size"),
         (["render", "RIG", "--out", "x.jpg"], ".png"),
+        (["render", "RIG", "--out", "x.png", "--supersampling", "9"], "--supersampling"),
+        (["render", "RIG", "--out", "x.png", "--scale", "0"], "--scale"),
+        (["render", "RIG", "--out", "x.png", "--shading", "wax"], "wax"),
         (["export", "RIG", "--out", "x.fbx"], ".fbx"),
         (["--compare", "transpose,hybrid,sparse,bounded,tikhonov"], "do not fit"),
     ],

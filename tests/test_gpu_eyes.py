@@ -1,10 +1,11 @@
-"""Painted irises."""
+"""Painted irises, and eyes under their lids."""
 
+import moderngl
 import numpy as np
 
 from facepin.gpu.eyes import ANGLES, IRIS, gaze_angle, paint_iris
 from facepin.gpu.materials import EYEBALL, vertex_albedo
-from gpu_help import ball
+from gpu_help import ball, camera, draw, drawn
 
 WHITE = (0.9, 0.8, 0.7)
 
@@ -57,3 +58,21 @@ def test_only_eyes_without_a_colour_are_painted() -> None:
     assert (vertex_albedo(ball(30, name="eyeL", colour=(0.5, 0.5, 0.5))) == 1).all()
     assert (vertex_albedo(ball(30)) == 1).all()
     assert EYEBALL.roughness < 0.15
+
+
+def test_an_eye_turns_under_the_shadow_of_its_lids(gl: moderngl.Context) -> None:
+    rig = ball(24, name="eyeL", colour=(0.8, 0.8, 0.8))
+    with drawn(gl, rig, rig.neutral) as (mesh, canvas):
+        plain = draw(mesh, canvas, camera(rig))
+        # What is baked at its vertices turns with them, so it must not be seen.
+        count = rig.vertex_count
+        baked = np.concatenate([np.ones((count, 3)), np.linspace(0, 1, count)[:, None]], axis=1)
+        mesh.scene.albedo.write(baked.astype(np.float16))
+        np.testing.assert_array_equal(draw(mesh, canvas, camera(rig)), plain)
+    grey = plain[..., :3].mean(axis=2)
+    other = ball(24, colour=(0.8, 0.8, 0.8))
+    with drawn(gl, other, other.neutral) as (mesh, canvas):
+        open_ = draw(mesh, canvas, camera(other))[..., :3].mean(axis=2)
+    below, above = (slice(76, 84), slice(60, 68)), (slice(28, 36), slice(60, 68))
+    assert grey[above].mean() < open_[above].mean() - 15, "the upper lid"
+    assert grey[below].mean() > open_[below].mean() - 8

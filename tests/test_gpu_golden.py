@@ -13,6 +13,7 @@ from facepin.core.measures import moves
 from facepin.core.normals import NormalField
 from facepin.core.picking import pick
 from facepin.core.rig import Rig
+from facepin.core.shading import MODES
 from facepin.files import open_rig
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.markers import MarkerLayer, Markers
@@ -78,20 +79,22 @@ def test_smile_with_pins(gl: moderngl.Context, ada: Rig, request: pytest.Fixture
     check("smile", image, gl, request)
 
 
-def test_overlays(gl: moderngl.Context, ada: Rig, request: pytest.FixtureRequest) -> None:
+def test_modes_and_ghost(gl: moderngl.Context, ada: Rig, request: pytest.FixtureRequest) -> None:
     shapes = {"jawOpen": 0.7, "mouthLeft": 0.8, "browInnerUp": 0.8}
     positions = ada.evaluate(np.array([shapes.get(name, 0.0) for name in ada.shape_names]))
     camera = frame_points(ada.neutral, 1.0, Camera(radius=0.0).looking("three-quarter")).zoomed(1.6)
     scene = Scene(gl, ada)
+    while not scene.refined:
+        scene.refine()
     face, neutral = PaneMesh(scene), PaneMesh(scene)
     for mesh, pose in ((face, positions), (neutral, ada.neutral)):
         mesh.upload(pose, NormalField(ada).normals(pose))
     heat = (moves(positions, ada.neutral) / heat_scale(ada.height).top).astype(np.float32)
     looks = {
-        "heat": Overlays(heat=heat),
-        "wire": Overlays(wireframe=True),
-        "ghost": Overlays(ghost=neutral),
+        name: Overlays(heat if mode.shading == "heat" else None, mode.wireframe, shading=mode.shading)
+        for name, mode in MODES.items()
     }
+    looks |= {"ghost": Overlays(ghost=neutral), "edges": Overlays(wireframe=True)}
     pictures = {name: draw_picture(face, camera, (SIZE, SIZE), overlays=look) for name, look in looks.items()}
     for item in (neutral, face, scene):
         item.release()

@@ -48,6 +48,22 @@ def test_the_bottom_of_a_pit_is_dark(gl: moderngl.Context) -> None:
     assert values[z < -0.5].min() > 0.9
 
 
+def test_what_stands_by_a_wall_opens_away_from_it(gl: moderngl.Context) -> None:
+    rig = pot()
+    scene = Scene(gl, rig)
+    while not scene.refined:
+        scene.refine(16)
+    towards = np.frombuffer(scene.towards.read(), np.float16).reshape(-1, 4)[:, :3].astype(float)
+    scene.release()
+    x, y, z = rig.neutral.T
+    away = np.hypot(x, y)
+    foot = (away > 0.2) & (away < 0.33) & (np.abs(z) < 0.4)
+    assert foot.sum() > 5
+    outwards = (towards[foot, 0] * x[foot] + towards[foot, 1] * y[foot]) / away[foot]
+    assert outwards.mean() < -0.1
+    assert np.abs(towards[z < -0.5]).max() < 0.15, "what is open all round leans nowhere"
+
+
 def test_an_inside_out_file_is_lit_outside(gl: moderngl.Context) -> None:
     assert openness(gl, ball(32, inside_out=True)).min() > 0.9
 

@@ -9,6 +9,7 @@ from PIL import Image
 
 from facepin.core.errors import FacepinError
 from facepin.gpu import picture
+from facepin.gpu.markers import Markers, MarkerState
 from facepin.gpu.picture import draw_picture, open_context, png_bytes, render_picture
 from gpu_help import SIZE, ball, camera, draw, drawn
 
@@ -28,6 +29,38 @@ def test_tiles_fit_together(gl: moderngl.Context, monkeypatch: pytest.MonkeyPatc
         tiled = draw_picture(mesh, camera(rig), (150, 100), samples=0).astype(int)
     difference = np.abs(tiled - whole).max(axis=2)
     assert np.mean(difference > 2) < 0.002, "but for rounding at the outline"
+
+
+def test_the_wall_has_no_seams_between_tiles(gl: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    rig = ball(6)
+    with drawn(gl, rig, rig.neutral) as (mesh, _):
+        view = camera(rig).zoomed(0.02)  # nothing but wall: its pool of light, and the noise that hides bands
+        whole = draw_picture(mesh, view, (150, 100), samples=0)
+        monkeypatch.setattr(picture, "TILE", 47)
+        tiled = draw_picture(mesh, view, (150, 100), samples=0)
+    assert len(np.unique(whole[:3, :3, 0])) > 1, "there is noise"
+    different = (tiled != whole).any(axis=2)
+    different[44:56, 69:81] = False  # the face
+    assert np.mean(different) < 0.005, "but for rounding"
+
+
+@pytest.mark.parametrize("supersampling", [1, 2])
+def test_pins_have_the_same_size_in_tiles_and_supersampled(
+    gl: moderngl.Context, monkeypatch: pytest.MonkeyPatch, supersampling: int
+) -> None:
+    rig = ball()
+    pin = Markers(np.float32([[0, 0, 1]]), np.float32([[0.5, 0.4, 1]]), np.uint8([MarkerState.HELD]))
+
+    def picture_of(markers: Markers | None, **options: object) -> np.ndarray:
+        look = camera(rig)
+        return render_picture(gl, rig, rig.neutral, rig.neutral, look, (90, 80), markers=markers, **options)
+
+    bare = picture_of(None).astype(int)
+    plain = picture_of(pin).astype(int)
+    monkeypatch.setattr(picture, "TILE", 41)
+    other = picture_of(pin, supersampling=supersampling).astype(int)
+    assert np.mean(np.abs(plain - bare).max(axis=2) > 40) > 0.01
+    assert np.mean(np.abs(plain - other).max(axis=2) > 60) < 0.01
 
 
 def test_supersampling_averages(gl: moderngl.Context) -> None:

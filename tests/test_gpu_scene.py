@@ -1,6 +1,7 @@
 """A face on the graphics card: what is sent, where it is drawn, and that it always looks the same."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import moderngl
 import numpy as np
@@ -114,6 +115,16 @@ def test_light_at_vertices_looks_like_light_at_pixels(
         view = camera(rig).orbited(turn, 0.0)
         fast, fine = (draw(mesh, canvas, view, fine=fine).astype(int) for fine in (False, True))
     assert np.abs(fast - fine).max() <= 6
+
+
+def test_hard_edges_between_colours_have_no_speckles(gl: moderngl.Context) -> None:
+    rig = ball(24, name="eye")
+    grey = np.where(rig.neutral[:, :1] * rig.neutral[:, 1:2] > 0, 0.0, 0.9).repeat(3, axis=1)
+    rig = replace(rig, colours=grey.astype(np.float32))
+    with drawn(gl, rig, rig.neutral, samples=4) as (mesh, canvas):
+        image = draw(mesh, canvas, camera(rig), background=False)[..., :3].astype(int)
+    # Samples beyond the edge of a triangle guess colours below black.
+    assert (image.max(axis=2) - image.min(axis=2)).max() < 50
 
 
 def test_light_comes_from_the_upper_left(gl: moderngl.Context) -> None:

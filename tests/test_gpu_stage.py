@@ -58,7 +58,7 @@ def shown(gl: moderngl.Context) -> Iterator[Shown]:
 
 def test_each_pane_has_its_own_overlays(shown: Shown) -> None:
     bare = shown.draw(PaneView(), PaneView())
-    for view in (PaneView(heat=True), PaneView(wireframe=True), PaneView(ghost="neutral")):
+    for view in (PaneView(shading="heat"), PaneView(wireframe=True), PaneView(ghost="neutral")):
         seen = shown.draw(PaneView(), view)
         np.testing.assert_array_equal(seen[:, : SIZE // 2], bare[:, : SIZE // 2])
         assert np.abs(seen - bare)[:, SIZE // 2 :].max() > 20
@@ -73,11 +73,11 @@ def test_what_is_off_is_not_measured(shown: Shown, monkeypatch: pytest.MonkeyPat
 
 
 def test_heat_is_in_shares_of_the_top(shown: Shown) -> None:
-    heat = shown.stage.overlays(1, PaneView(heat=True)).heat
+    heat = shown.stage.overlays(1, PaneView(shading="heat")).heat
     assert heat is not None
     up = np.maximum(shown.rig.neutral[:, 1], 0)
     np.testing.assert_allclose(heat, 0.3 * up / heat_scale(shown.rig.height).top, atol=1e-5)
-    assert shown.stage.overlays(1, PaneView(heat=True)).heat is heat
+    assert shown.stage.overlays(1, PaneView(shading="heat")).heat is heat
 
 
 def test_ghosts_are_made_once_and_shared(shown: Shown) -> None:
@@ -95,7 +95,7 @@ def test_ghosts_are_made_once_and_shared(shown: Shown) -> None:
 
 
 def test_the_saved_picture_is_the_pane_without_its_pins(shown: Shown) -> None:
-    view = PaneView(heat=True, wireframe=True, ghost="neutral")
+    view = PaneView(shading="heat", wireframe=True, ghost="neutral")
     seen = shown.draw(view, PaneView())[:, : SIZE // 2]
     stage, size = shown.stage, (SIZE // 2, SIZE)
     image = draw_picture(stage.mesh(0), camera(shown.rig), size, samples=0, overlays=stage.overlays(0, view))
@@ -103,8 +103,9 @@ def test_the_saved_picture_is_the_pane_without_its_pins(shown: Shown) -> None:
 
 
 def test_a_drag_over_still_parts_looks_like_the_pose_alone(gl: moderngl.Context) -> None:
-    views = [PaneView()] * 3 + [PaneView(heat=True)] * 2 + [PaneView()] * 2
-    steps = [(0.3 + 0.05 * step, view) for step, view in enumerate(views)]
+    shadings = ["studio"] * 3 + ["heat"] * 2 + ["clay"] * 3 + ["normals"] * 3 + ["studio"] * 2
+    views = [PaneView(shading=shading) for shading in shadings]
+    steps = [(0.3 + 0.03 * step, view) for step, view in enumerate(views)]
     dragged, fresh = Shown(gl), []
     for weight, view in steps:
         alone = Shown(gl)

@@ -44,7 +44,7 @@ class Drag:
         mesh.upload(positions, self._normals.normals(positions))
 
     def draw(self, *sights: tuple[Viewport, Camera]) -> np.ndarray:
-        self.still.draw(self.canvas, sights, self.meshes)
+        self.still.draw(self.canvas, sights, [(mesh, "studio") for mesh in self.meshes])
         for mesh, (viewport, camera) in zip(self.meshes, sights, strict=True):
             framing = frame(camera, viewport)
             mesh.draw_framed(self.canvas, framing, fine=False, part="moving")

@@ -225,7 +225,6 @@ def test_save_asks_for_name_and_tags_in_the_panel(rig: Path, tmp_path: Path) -> 
         assert titles(app) == ["Grin"]
         assert not app.desk.view.library.saving
         assert str(tmp_path) in app.desk.message
-        assert app.desk.is_saved
         # Esc gives up.
         app.ask(Command.SAVE_TO_LIBRARY)
         app.step(PointerMoved(5, 5), frames=4)
@@ -240,7 +239,7 @@ def test_names_order_and_removal_are_undone_and_redone_with_their_files(rig: Pat
         app.ask(LabelPose("Smile", " Grin\n", ("happy",)))
         assert titles(app) == ["Grin", "Frown", "Blink"]
         assert app.session.undo_label == "Rename Smile"
-        assert app.desk.is_saved  # the pose on the face is none the less saved
+        assert app.desk.keeper.is_saved(app.session)  # the pose on the face is none the less saved
         app.ask(MovePose("Blink", "Smile"))
         assert titles(app) == ["Blink", "Grin", "Frown"]
         app.ask(RemovePoses(("Smile", "Frown")))

@@ -66,8 +66,8 @@ def test_arrows_choose_and_escape_leaves() -> None:
 def test_letters_typed_into_it_are_no_shortcuts_and_a_click_beside_it_closes_it() -> None:
     with running() as app:
         called(app)
-        app.step(KeyPressed("w"), frames=2)
-        assert not app.desk.view.panes[0].wireframe
+        app.step(KeyPressed("h"), frames=2)
+        assert app.desk.view.panes[0].shading == "studio"
         app.press(100, 600)
         app.release(100, 600)
         assert app.desk.view.palette is None

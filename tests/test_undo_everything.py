@@ -41,7 +41,7 @@ ASK_FOR_A_FILE = {
     Command.REFERENCE_FROM_FILE,
 }
 NOT_HERE = {
-    Command.SCREENSHOT,  # draws
+    *requests.PICTURES,  # draw
     Command.SAVE_CHART,
     Command.CONTACT_SHEET,
     Command.POSE_PICTURES,

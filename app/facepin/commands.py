@@ -11,6 +11,7 @@ import numpy as np
 
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
+from facepin.core.shading import MODES
 from facepin.options import (
     VIEWS,
     add_rig,
@@ -22,6 +23,9 @@ from facepin.options import (
 )
 from facepin.session.solving import PinSolver
 from facepin.solvers.settings import plain_settings
+
+MOST_SUPERSAMPLING = 8
+"""How many times larger a picture may be drawn than it becomes."""
 
 
 @dataclass(frozen=True)
@@ -119,16 +123,38 @@ def _render_options(parser: ArgumentParser) -> None:
         "--size", type=picture_size, default=(1280, 720), metavar="WxH", help="pixels (default: 1280x720)"
     )
     parser.add_argument("--view", choices=VIEWS, default="front")
+    parser.add_argument("--shading", choices=MODES, default="studio", help="how the face is coloured")
+    parser.add_argument("--pins-shown", action="store_true", help="draw the pins of the pose file too")
     parser.add_argument("--transparent", action="store_true", help="leave out the background")
+    parser.add_argument(
+        "--supersampling",
+        type=int,
+        choices=range(1, MOST_SUPERSAMPLING + 1),
+        default=1,
+        metavar="N",
+        help=f"draw N times larger both ways and average, 1 to {MOST_SUPERSAMPLING} (default: 1)",
+    )
+    parser.add_argument(
+        "--scale",
+        type=float,
+        default=1.0,
+        metavar="X",
+        help="size of pins and edges; 2 looks like a HiDPI screen (default: 1)",
+    )
     parser.add_argument("--out", type=Path, required=True, metavar="PNG", help="where the picture goes")
 
 
 def _render(options: Namespace) -> None:
     from facepin.core.camera import Camera, frame_points
+    from facepin.core.heat import heat_scale
+    from facepin.core.measures import moves
     from facepin.core.normals import NormalField
     from facepin.files.atomic import atomic_write
+    from facepin.gpu.markers import pin_markers
     from facepin.gpu.picture import open_context, png_bytes, render_picture
 
+    if not 0.1 <= options.scale <= 100:
+        raise FacepinError(f"--scale {options.scale:g}: allowed are 0.1 to 100")
     if options.out.suffix.lower() != ".png":
         raise FacepinError(f"{options.out.name}: pictures are written as .png, found '{options.out.suffix}'")
     rig = open_with_bar(options.rig, options.neutral)
@@ -137,6 +163,10 @@ def _render(options: Namespace) -> None:
     width, height = options.size
     looking = Camera(radius=0.0).looking(options.view)
     camera = frame_points(positions, width / height, looking)
+    mode = MODES[options.shading]
+    heat = None
+    if mode.shading == "heat":
+        heat = (moves(positions, rig.neutral) / heat_scale(rig.height).top).astype(np.float32)
     with open_context() as ctx:
         image = render_picture(
             ctx,
@@ -146,6 +176,12 @@ def _render(options: Namespace) -> None:
             camera,
             (width, height),
             transparent=options.transparent,
+            supersampling=options.supersampling,
+            heat=heat,
+            wireframe=mode.wireframe,
+            shading=mode.shading,
+            scale=options.scale,
+            markers=pin_markers(pose, positions) if options.pins_shown else None,
         )
     atomic_write(options.out, png_bytes(image))
 

@@ -243,7 +243,7 @@ def over_picture(
                 has_reference=session.work.reference is not None,
             )
     for view, place in zip(desk.view.panes, viewports, strict=False):
-        if view.heat:
+        if view.shading == "heat":
             heat_legend(session.rig.height, place, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)

@@ -14,10 +14,11 @@ from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
+from facepin.core.quality import Level, level
 from facepin.core.rig import Rig
 from facepin.desk import ChartWriter, Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
-from facepin.gpu.canvas import Canvas
+from facepin.gpu.canvas import Canvases
 from facepin.layout_file import LayoutFile
 from facepin.options import BUILTIN
 from facepin.panels import layout
@@ -99,7 +100,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         At the end, when there is such work and it could not be kept.
     """
     view = View()
-    rough, smooth = Canvas(window.ctx, 0, window.texture), Canvas(window.ctx, 4, window.texture)
+    canvases = Canvases(window.ctx, window.texture)
     desk = Desk(
         window.ctx,
         view,
@@ -113,20 +114,19 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     _set_up_imgui()
     layout_file = LayoutFile(start.settings_folder / "layout.ini" if start.settings_folder else None)
     try:
-        yield from _loop(window, start, desk, layout_file, rough, smooth)
+        yield from _loop(window, start, desk, layout_file, canvases)
     finally:
         layout_file.save()
         desk.keep()
         lost = desk.keeper.close()
         desk.release()
-        rough.release()
-        smooth.release()
+        canvases.release()
         if lost:
             raise FacepinError(lost)
 
 
 def _loop(
-    window: Window, start: Start, desk: Desk, layout_file: LayoutFile, rough: Canvas, smooth: Canvas
+    window: Window, start: Start, desk: Desk, layout_file: LayoutFile, canvases: Canvases
 ) -> Iterator[Frame]:
     """Draw frame after frame until the user quits."""
     view = desk.view
@@ -212,8 +212,9 @@ def _loop(
 
             # The picture, where it is another than the last one.
             moving = moved or router.navigator.holding or desk.tool.holding
-            canvas = _canvas(view, rough, smooth, software=software, moving=moving)
-            wanted = _picture_key(desk, desk.stage, viewports, canvas, window.size)
+            quality = level(view.quality, software=software, moving=moving)
+            canvas = canvases.of(quality.samples)
+            wanted = _picture_key(desk, desk.stage, viewports, quality, window.size)
             if wanted != drawn:
                 canvas.resize(*window.size)
                 desk.stage.draw(
@@ -222,7 +223,7 @@ def _loop(
                     view.panes,
                     desk.tool,
                     window.scale,
-                    fine=canvas is smooth,
+                    fine=quality.fine,
                     beside=theme.panel,
                 )
                 drawn = wanted
@@ -283,19 +284,13 @@ def _is_software(ctx: moderngl.Context) -> bool:
     return any(word in ctx.info["GL_RENDERER"].lower() for word in ("llvmpipe", "softpipe", "swiftshader"))
 
 
-def _canvas(view: View, rough: Canvas, smooth: Canvas, *, software: bool, moving: bool) -> Canvas:
-    if view.quality == "off" or (view.quality == "auto" and software and moving):
-        return rough
-    return smooth
-
-
 def _picture_key(
-    desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], canvas: Canvas, size: tuple[int, int]
+    desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], quality: Level, size: tuple[int, int]
 ) -> tuple[object, ...]:
     """Return everything the picture depends on; the same key means the same picture."""
     tool = desk.tool
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
     hands = (tool.selected, tool.hovered, tool.held)
-    seen = (canvas, size, viewports, tuple(desk.cameras), desk.view.theme)
+    seen = (quality, size, viewports, tuple(desk.cameras), desk.view.theme)
     return (stage, stage.refined, work, *seen, overlays, hands)

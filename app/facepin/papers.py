@@ -4,8 +4,10 @@ from pathlib import Path
 
 from facepin.core.camera import Camera, Viewport
 from facepin.files.atomic import atomic_write
-from facepin.gpu.picture import draw_picture, png_bytes
+from facepin.gpu.framing import frame
+from facepin.gpu.picture import png_bytes
 from facepin.panels.view import PaneView
+from facepin.session.drag import DragTool
 from facepin.stage import Stage
 
 
@@ -18,19 +20,28 @@ def free_name(folder: Path, name: str, suffix: str) -> Path:
     return path
 
 
-def save_picture(stage: Stage, view: PaneView, camera: Camera, viewport: Viewport, folder: Path) -> Path:
-    """Write what the active pane shows, without pins and panels; return where.
+def save_picture(
+    stage: Stage,
+    view: PaneView,
+    camera: Camera,
+    viewport: Viewport,
+    folder: Path,
+    tool: DragTool | None = None,
+    samples: int = 4,
+) -> Path:
+    """Write what the active pane shows, without panels; return where.
+
+    Pins are in it where a `tool` says how they are held.
 
     Raises
     ------
     FacepinError, OSError
         If it cannot be written.
     """
-    while not stage.refined:
-        stage.refine()
-    active = stage.session.active
-    size = (max(round(viewport.width), 1), max(round(viewport.height), 1))
-    image = draw_picture(stage.mesh(active), camera, size, overlays=stage.overlays(active, view))
+    framing = frame(camera, viewport)
+    image = stage.picture(
+        stage.session.active, view, camera, framing.rectangle[2:], tool=tool, samples=samples
+    )
     path = free_name(folder, stage.session.rig.name, ".png")
     atomic_write(path, png_bytes(image))
     return path

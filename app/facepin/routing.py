@@ -20,7 +20,7 @@ from facepin.core.events import (
     Scrolled,
 )
 from facepin.desk import Desk
-from facepin.panels.requests import Command, OpenPath, Request, command_for
+from facepin.panels.requests import PICTURES, Command, OpenPath, Request, command_for
 from facepin.session.edit import Edit
 from facepin.session.navigation import PRESETS, Navigator
 from facepin.session.nudge import goes_on
@@ -87,7 +87,7 @@ class Router:
                     return None  # it is being written; only what writes nothing is heard everywhere
                 in_hand = desk.tool.holding or self.navigator.holding
                 # What a gesture began with must not change under it; a picture of it may be taken.
-                if command is not None and (not in_hand or command is Command.SCREENSHOT):
+                if command is not None and (not in_hand or command in PICTURES):
                     asked.append(command)
                 elif desk.stage is not None:
                     return self._key(event, desk, desk.stage, viewports, scale)

@@ -16,7 +16,7 @@ from facepin.core.pose import Pose
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame
-from facepin.gpu.markers import MarkerLayer, Markers, MarkerState, marker_size
+from facepin.gpu.markers import MarkerLayer, Markers, pin_markers
 from facepin.gpu.materials import material
 from facepin.gpu.pane import BARE, Overlays, draw_pane
 from facepin.gpu.picture import Image, draw_picture
@@ -58,6 +58,8 @@ class Stage:
 
     def __init__(self, ctx: moderngl.Context, session: Session) -> None:
         self.session = session
+        self.scale = 1.0
+        """Pixels per pixel of a 1x screen, as last drawn."""
         self.seconds = 0.0
         """Time of the last deformation with normals and upload, all panes."""
         self._scene = Scene(ctx, session.rig)
@@ -127,18 +129,59 @@ class Stage:
         return shown.appraised[2]
 
     def mesh(self, pane: int) -> PaneMesh:
-        """The mesh of a pane, for a picture of it."""
+        """The mesh of a pane."""
         return self._shown[pane].mesh
+
+    def picture(
+        self,
+        pane: int,
+        view: PaneView,
+        camera: Camera,
+        size: tuple[int, int],
+        *,
+        tool: DragTool | None = None,
+        samples: int = 4,
+    ) -> Image:
+        """Return what a pane shows when it rests, (h, w, 4) uint8, with fine light and its shading refined.
+
+        Parameters
+        ----------
+        pane, view, camera
+            As for `draw`.
+        size : (int, int)
+            Width and height in pixels, any.
+        tool : DragTool
+            Whose pins are drawn too; no pins without one.
+        samples : int
+            Per pixel.
+        """
+        while not self.refined:
+            self.refine()
+
+        def pins(canvas: Canvas, framing: Framing, scale: float) -> None:
+            if tool is not None:
+                markers = _markers(self.session.panes[pane].pose, self.positions(pane), tool)
+                self._markers.draw_framed(canvas, framing, markers, scale=scale)
+
+        return draw_picture(
+            self.mesh(pane),
+            camera,
+            size,
+            samples=samples,
+            overlays=self.overlays(pane, view),
+            scale=self.scale,
+            overlay=pins,
+        )
 
     def overlays(self, pane: int, view: PaneView) -> Overlays:
         """Return what `view` shows over the face of a pane; measures and uploads only what it asks for."""
         work, shown = self.session.work, self._shown[pane]
         heat = None
-        if view.heat:
-            heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
         if view.reach:
             heat = shown.gauge.reach(work.panes[pane])
-        return Overlays(heat, view.wireframe, self._ghost_of(view))
+        elif view.shading == "heat":
+            heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
+        return Overlays(heat, view.wireframe, self._ghost_of(view), view.shading)
 
     def portrait(
         self,
@@ -162,7 +205,7 @@ class Stage:
         size : (int, int)
             Width and height in pixels.
         over : PaneView
-            Wireframe and ghost as in a pane; of a heat map there is none, since no drag led here.
+            Shading, wireframe and ghost as in a pane; studio for a heat map, since no drag led here.
         pins : bool
             Draw the pins too.
         scale : float
@@ -176,10 +219,11 @@ class Stage:
         self._sitter.upload(positions, self._shown[0].normals.twin().normals(positions))
         overlays = BARE
         if over is not None:
-            overlays = Overlays(None, over.wireframe, self._ghost_of(over))
+            shading = "studio" if over.shading == "heat" else over.shading
+            overlays = Overlays(None, over.wireframe, self._ghost_of(over), shading)
         markers = _markers(pose, positions, DragTool())
 
-        def draw_pins(canvas: Canvas, framing: Framing) -> None:
+        def draw_pins(canvas: Canvas, framing: Framing, scale: float) -> None:
             self._markers.draw_framed(canvas, framing, markers, scale=scale)
 
         return draw_picture(
@@ -240,12 +284,16 @@ class Stage:
         beside : (r, g, b, a)
             Colour of what is outside of the panes.
         """
+        self.scale = scale
         if fine or canvas.samples:
             self._still.forget()
             self._scene.background.draw(canvas, sights, beside)
             part: Part = "all"
         else:
-            faces = [None if view.heat else self.mesh(at) for at, view in enumerate(overlays[: len(sights)])]
+            faces = [
+                None if view.measured else (self.mesh(at), view.shading)
+                for at, view in enumerate(overlays[: len(sights)])
+            ]
             self._still.draw(canvas, sights, faces, beside)
             part = "moving"
         for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
@@ -269,21 +317,4 @@ class Stage:
 
 
 def _markers(pose: Pose, positions: Points, tool: DragTool) -> Markers:
-    states: list[MarkerState] = []
-    pins, held = [pin for pin in pose.pins if not pin.hidden], tool.held
-    for pin in pins:
-        if pin.vertex in held:
-            states.append(MarkerState.HELD)
-        elif pin.vertex in tool.selected:
-            states.append(MarkerState.SELECTED)
-        elif pin.vertex == tool.hovered:
-            states.append(MarkerState.HOVERED)
-        else:
-            states.append(MarkerState.NORMAL)
-    return Markers(
-        positions[[pin.vertex for pin in pins]],
-        np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
-        np.array(states, np.uint8),
-        np.array([marker_size(pin.stiffness) for pin in pins]),
-        np.array([pin.locked for pin in pins], bool),
-    )
+    return pin_markers(pose, positions, held=tool.held, hovered=tool.hovered, selected=tool.selected)

@@ -6,7 +6,8 @@ is taken from elsewhere.  The way from parameters to a rig:
 - `anatomy` names every number of a character, `characters` holds the characters;
 - `field` turns them into one signed distance field, the head;
 - `topology` is a fixed grid of quads with rings round eye and mouth, `openings` are the curves of lids and
-  lips, and `skin` lays the grid on the field (one half, then mirrored: symmetry is exact);
+  lips, `lids` lays the rings round the eye, and `skin` the whole grid on the field (one half, then mirrored:
+  symmetry is exact);
 - `eyes`, `mouth_parts`, `brows`, `ears`, `hair` and `shirt` are the other meshes, `colours` paints the skin;
 - `landmarks` carries places between faces, so that shapes and paint are written once, on a reference face;
 - `deformer` spreads displacements of lips, lids and brows over the skin, `shapes_*` say what shapes move;

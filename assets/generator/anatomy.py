@@ -43,12 +43,19 @@ class Skull:
     muzzle: Ball = Ball((0, -5.7, 4.95), (2.65, 2.1, 2.4), 1.8)
     brow_ridge: Bone = Bone((1.5, 2.45, 5.95), (4.7, 2.3, 4.4), (0.85, 0.95), 2.0)
     neck: Bone = Bone((0, -14.0, -2.6), (0, -5.0, -1.6), (2.95, 3.25), 2.2)
+    neck_muscle: Bone = Bone((0.75, -13.4, -0.15), (3.3, -5.0, -2.2), (0.42, 0.62), 1.3)
+    """From the collar bone to behind the ear."""
     shoulders: Ball = Ball((0, -19.6, -3.0), (8.5, 3.0, 4.2), 3.5)
     brow_fill: Ball = Ball((1.70, 0.95, 5.78), (1.0, 1.2, 0.98), 1.6)
     """Between brow and nose, where the socket would otherwise cut a pit."""
     inner_canthus: Bone = Bone((1.75, -0.25, 6.75), (2.3, 0.2, 6.9), (0.5, 0.7), 1.1)
     """Taken away: the soft trough beside the nose."""
     jaw_hinge: Vector = (0, -1.3, -0.6)
+    pads: tuple[Ball, ...] = ()
+    """Added: what sags with age, such as bags under the eyes and jowls."""
+    furrows: tuple[Bone, ...] = ()
+    """Taken away: the lines of age."""
+    ear_size: float = 1.14
 
 
 @dataclass(frozen=True)
@@ -122,11 +129,17 @@ class Hair:
 
     line: Curve = (
         (0, 5.9), (0.42, 6.15), (0.80, 5.0), (1.02, 3.2), (1.16, 0.9), (1.27, -0.55), (1.36, -0.35),
-        (1.50, 1.35), (1.64, 1.30), (1.80, -0.4), (2.05, -3.2), (2.5, -5.0), (3.141592653589793, -5.6),
+        (1.50, 1.35), (1.64, 1.30), (1.80, -0.4), (2.05, -3.2), (2.5, -4.5), (3.141592653589793, -4.7),
     )  # fmt: skip
     centre: Vector = (0, 3.4, -1.2)
     locks: float = 0.0
     """How far the hairline runs out into locks, radians."""
+    volume: float = 1.0
+    """Thickness, 1 for straight short hair."""
+    grooves: float = 1.0
+    """Depth of the grooves between strands."""
+    bun: Ball | None = None
+    """A coiled knot on the head."""
 
 
 @dataclass(frozen=True)
@@ -139,11 +152,11 @@ class Colours:
     iris: Colour = (0.26, 0.50, 0.62)
     brow: Colour = (0.27, 0.165, 0.115)
     lash: Colour = (0.09, 0.06, 0.055)
-    hair: Colour = (0.30, 0.17, 0.11)
+    hair: Colour = (0.36, 0.20, 0.12)
     shirt: Colour = (0.16, 0.30, 0.36)
     teeth: Colour = (0.965, 0.95, 0.915)
     gum: Colour = (0.80, 0.42, 0.42)
-    tongue: Colour = (0.80, 0.38, 0.40)
+    tongue: Colour = (0.82, 0.46, 0.46)
 
 
 @dataclass(frozen=True)

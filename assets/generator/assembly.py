@@ -1,6 +1,5 @@
 """Joins a character and its shapes into the arrays of a rig."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +9,7 @@ from generator.character import MATERIALS, Character, swapped
 from generator.deformer import SkinDeformer
 from generator.shape import Shape
 from generator.shapes_eyes import LID_SHAPES, brow_shapes, lid_shapes
-from generator.shapes_jaw import jaw_shapes
+from generator.shapes_jaw import ROUNDED, jaw_shapes
 from generator.shapes_mouth import mouth_shapes
 from generator.shapes_production import production_shapes
 from generator.vectors import MIRROR, Array, Ints
@@ -46,7 +45,8 @@ class FaceModel:
     combo_pairs: Ints
     """(c, 2) pairs of shapes whose weights are multiplied."""
     combo_deltas: Array
-    """(c, n, 3) added by the product of both weights: a blink takes back what others do to the lids."""
+    """(c, n, 3) added by the product of both weights: a blink takes back what others do to the lids, and an
+    open jaw makes pursed lips round."""
 
     def posed(self, weights: dict[str, float]) -> Array:
         """Return the (n, 3) vertices at the given weights; a name without side stands for both sides."""
@@ -75,8 +75,17 @@ def build_model(character: Character, production: bool = False) -> FaceModel:
     names = (*ARKIT, *sorted(shapes.keys() - set(ARKIT)))
     follow = _Followers(character)
     deltas = np.stack([follow.all_parts(shapes[name]) for name in names])
-    pairs, combos = _blink_combinations(shapes, names, character, deformer)
-    return FaceModel(character, names, deltas, pairs, combos)
+    products = _blink_products(shapes, character, deformer)
+    for name, motion in ROUNDED.items():
+        products["jawOpen", name] = follow.all_parts(Shape(deformer.mouth(motion)))
+    pairs = sorted(products, key=lambda pair: (names.index(pair[0]), names.index(pair[1])))
+    return FaceModel(
+        character,
+        names,
+        deltas,
+        combo_pairs=np.array([[names.index(name) for name in pair] for pair in pairs]),
+        combo_deltas=np.stack([products[pair] for pair in pairs]),
+    )
 
 
 def _left_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:
@@ -132,17 +141,16 @@ class _Followers:
         return moved
 
 
-def _blink_combinations(
-    shapes: dict[str, Shape], names: Sequence[str], character: Character, deformer: SkinDeformer
-) -> tuple[Ints, Array]:
-    """Return the products with a blink that take back the other shape's motion of the lids."""
+def _blink_products(
+    shapes: dict[str, Shape], character: Character, deformer: SkinDeformer
+) -> dict[tuple[str, str], Array]:
+    """Return (blink, other shape) -> (n, 3) displacement that takes back the other's motion of the lids."""
     closed = LID_SHAPES["eyeBlinkLeft"][:2]
     lift = deformer.lids(*closed, lift=CLOSING_LIFT).skin - deformer.lids(*closed).skin
-    pairs: list[tuple[int, int]] = []
-    deltas: list[Array] = []
+    products: dict[tuple[str, str], Array] = {}
     for name, shape in shapes.items():
         blink = "eyeBlink" + ("Left" if "Left" in name else "Right")
-        if shape.lid is None or name == blink or name not in names:
+        if shape.lid is None or name == blink:
             continue
         lash = "lashL" if "Left" in name else "lashR"
         rise = lift if "Left" in name else deformer.mirrored(lift)
@@ -152,10 +160,8 @@ def _blink_combinations(
         moved[character.at("skin")] = opens * rise - shape.lid
         moved[character.at(lash)] = opens * rise[roots] - shape.parts[lash]
         moved[np.abs(moved) < SMALLEST] = 0
-        pairs.append((names.index(blink), names.index(name)))
-        deltas.append(moved)
-    order = sorted(range(len(pairs)), key=pairs.__getitem__)
-    return np.array([pairs[k] for k in order]), np.stack([deltas[k] for k in order])
+        products[blink, name] = moved
+    return products
 
 
 def arrays(model: FaceModel) -> dict[str, np.ndarray]:

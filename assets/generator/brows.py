@@ -23,13 +23,13 @@ def brow(field: HeadField) -> Mesh:
     out = unit(out - (out * along).sum(1)[:, None] * along)
     up = np.cross(out, along)
     up *= np.sign(up[:, 1:2])
-    start, end = np.clip((t + 0.006) / 0.18, 0, 1) ** 0.6, np.clip((1.01 - t) / 0.03, 0, 1) ** 0.5
+    start, end = np.clip((t + 0.006) / 0.18, 0, 1) ** 0.5, np.clip((1.01 - t) / 0.03, 0, 1) ** 0.5
     height = form.thickness * start * (1 - 0.82 * smoothstep(0.45, 1.02, t)) * end
     angle = 2 * np.pi * np.arange(AROUND) / AROUND
     rounded = np.sign(np.cos(angle)) * np.abs(np.cos(angle)) ** 0.9
     rows = []
     for i in range(SECTIONS):
-        lift = 0.06 + 0.17 * height[i] / form.thickness * np.sin(angle)
+        lift = 0.05 + 0.14 * height[i] / form.thickness * np.sin(angle)
         rows.append(line[i] + out[i] * lift[:, None] + up[i] * (height[i] * rounded)[:, None])
     count = SECTIONS * AROUND
     triangles = strip_triangles(np.arange(count).reshape(SECTIONS, AROUND), closed=True)
@@ -49,7 +49,7 @@ def lashes(skin: Skin, field: HeadField) -> tuple[Mesh, Ints]:
     margin, inside = skin.vertices[root], skin.vertices[lining]
     outward = unit(margin - np.array(field.anatomy.eye.centre))
     t = np.linspace(0, 1, count)
-    length = mix(0.02, 0.36, smoothstep(0.05, 0.85, t)) * np.clip((1 - t) / 0.12, 0.02, 1)
+    length = mix(0.02, 0.46, smoothstep(0.05, 0.75, t)) * np.clip((1 - t) / 0.22, 0.02, 1) ** 0.8
     thick = np.clip(length / 0.30, 0.05, 1)[:, None]
     tip = unit(outward + np.array([0.18, 0.55, 0.25]) + np.c_[0.5 * t, 0 * t, 0 * t])
     up = unit(np.cross(unit(np.gradient(margin, axis=0)), outward))

@@ -12,14 +12,14 @@ from generator.ears import ear
 from generator.eyes import eyeball
 from generator.field import HeadField
 from generator.hair import hair, hairline
-from generator.meshes import Mesh
+from generator.meshes import Mesh, joined
 from generator.mouth_parts import dental_arch, tongue
 from generator.shirt import shirt
 from generator.skin import Skin, build_skin
 from generator.vectors import MIRROR, Array, Ints
 
 MATERIALS = {
-    "skin": (0.46, 1.0, 0.75),
+    "skin": (0.50, 1.0, 0.75),
     "eyeL": (0.09, 0.15, 1.0),
     "eyeR": (0.09, 0.15, 1.0),
     "teethUpper": (0.22, 0.35, 0.9),
@@ -28,11 +28,11 @@ MATERIALS = {
     "tongue": (0.35, 0.8, 0.8),
     "browL": (0.6, 0.0, 0.5),
     "browR": (0.6, 0.0, 0.5),
-    "lashL": (0.5, 0.0, 0.4),
-    "lashR": (0.5, 0.0, 0.4),
-    "earL": (0.46, 1.0, 0.75),
-    "earR": (0.46, 1.0, 0.75),
-    "hair": (0.42, 0.0, 0.7),
+    "lashL": (0.75, 0.0, 0.4),
+    "lashR": (0.75, 0.0, 0.4),
+    "earL": (0.50, 1.0, 0.75),
+    "earR": (0.50, 1.0, 0.75),
+    "hair": (0.48, 0.0, 0.7),
     "shirt": (0.75, 0.0, 0.35),
 }
 """Parts in the order of their faces: (roughness, translucency, specular)."""
@@ -95,21 +95,16 @@ def build_character(anatomy: Anatomy) -> Character:
     colour, gloss = paint_skin(skin, field)
     colours, mouth, locks = anatomy.colours, anatomy.mouth, hair(field)
     colour = shade_hairline(colour, skin, hairline(locks), colours.hair)
-    teeth_z = skin.vertices[skin.mouth_rings[0]][0, 2] - 0.50
+    teeth_z = skin.vertices[skin.mouth_rings[0]][0, 2] - 0.54
     upper_teeth, upper_gum = dental_arch(teeth_z, mouth.height - 0.22, True, colours)
     lower_teeth, lower_gum = dental_arch(teeth_z - 0.24, mouth.height - 0.02, False, colours)
     left_lashes, roots = lashes(skin, field)
     left = {"eye": eyeball(anatomy.eye, colours), "brow": brow(field), "lash": left_lashes, "ear": ear(field)}
-    gums = Mesh(
-        np.r_[upper_gum.vertices, lower_gum.vertices],
-        np.r_[upper_gum.triangles, lower_gum.triangles + len(upper_gum.vertices)],
-        np.r_[upper_gum.colours, lower_gum.colours],
-    )
     parts = {
         "skin": Mesh(skin.vertices, skin.triangles, colour),
         "teethUpper": upper_teeth,
         "teethLower": Mesh(lower_teeth.vertices, lower_teeth.triangles, lower_teeth.colours * 0.97),
-        "gums": gums,
+        "gums": joined(upper_gum, lower_gum),
         "tongue": tongue(teeth_z, mouth.height - 0.85, colours),
         "hair": locks,
         "shirt": shirt(anatomy.skull, colours),

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from generator.assembly import FaceModel
 from generator.character import MATERIALS, swapped
-from generator.meshes import face_normals
+from generator.meshes import face_normals, vertex_normals
 from generator.topology import EYE_LINING, EYE_LOOP, LIP_RINGS, MOUTH_BAG, MOUTH_LOOP
 from generator.vectors import MIRROR, Array, Ints, Mask
 
@@ -19,7 +19,7 @@ BARYCENTRIC: Array = np.array(
 
 
 def asymmetry(model: FaceModel) -> tuple[float, float]:
-    """Return the largest mirror error of the neutral and of the shape pairs."""
+    """Return the largest mirror error of the neutral and of the shape pairs, with the products of shapes."""
     mirror, names = model.character.mirror(), model.names
     neutral = model.character.vertices
     of_neutral = np.abs(neutral[mirror] * MIRROR - neutral).max()
@@ -28,7 +28,17 @@ def asymmetry(model: FaceModel) -> tuple[float, float]:
         for k, name in enumerate(names)
         if swapped(name) in names
     )
-    return float(of_neutral), float(of_shapes)
+    pairs = [tuple(names[k] for k in pair) for pair in model.combo_pairs]
+    opposite = [pairs.index(tuple(swapped(name) for name in pair)) for pair in pairs]
+    of_products = np.abs(model.combo_deltas[opposite][:, mirror] * MIRROR - model.combo_deltas).max()
+    return float(of_neutral), float(max(of_shapes, of_products))
+
+
+def edges_of(triangles: Ints) -> Ints:
+    """Return the (e, 2) edges of triangles, each once."""
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges: Ints = np.unique(np.sort(sides, axis=1), axis=0)
+    return edges
 
 
 def triangle_quality(vertices: Array, triangles: Ints) -> Array:
@@ -52,13 +62,31 @@ def visible_skin(model: FaceModel) -> Mask:
     return on_skin & ~hidden_corner
 
 
-def flipped(model: FaceModel, posed: Array) -> int:
-    """Return how many visible skin triangles a pose turns by more than 100 degrees."""
-    triangles = model.character.triangles[visible_skin(model)]
-    before, after = face_normals(model.character.vertices, triangles), face_normals(posed, triangles)
+def flipped(neutral: Array, posed: Array, triangles: Ints) -> int:
+    """Return how many triangles a pose turns by more than 100 degrees."""
+    before, after = face_normals(neutral, triangles), face_normals(posed, triangles)
     cosine = (before * after).sum(1)
     size = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
     return int((cosine < -0.17 * size).sum())
+
+
+def stretch(neutral: Array, posed: Array, edges: Ints) -> Array:
+    """Return (e,) how many times as long as in the neutral each edge is."""
+    before, after = (np.linalg.norm(v[edges[:, 0]] - v[edges[:, 1]], axis=1) for v in (neutral, posed))
+    result: Array = after / before
+    return result
+
+
+def brow_slip(model: FaceModel, posed: Array) -> float:
+    """Return the largest change of height of the left brow over the skin under it: floating or sinking."""
+    character = model.character
+    brow = character.at("browL")
+    _, under = cKDTree(character.skin.vertices).query(character.vertices[brow])
+    height = [
+        ((v[brow] - v[under]) * vertex_normals(v, character.triangles)[under]).sum(1)
+        for v in (character.vertices, posed)
+    ]
+    return float(np.abs(height[1] - height[0]).max())
 
 
 def lid_clearance(model: FaceModel, posed: Array) -> float:
@@ -119,6 +147,48 @@ def _depth_over(points: Array, corners: Array) -> float:
     depth = np.where(inside, a[..., 2] + u * (b - a)[..., 2] + v * (c - a)[..., 2], -np.inf).max(1)
     covered = np.isfinite(depth)
     return float((points[covered, 2] - depth[covered]).max(initial=-np.inf))
+
+
+def lips(model: FaceModel) -> tuple[Ints, Ints]:
+    """Return the (m, 3) triangles of the upper and of the lower lip, with the skin next to the red."""
+    skin, half = model.character.skin, MOUTH_LOOP // 2
+    found: list[Ints] = []
+    for part in (slice(0, half + 1), slice(half, None)):
+        rings = [skin.both_sides(skin.mouth_rings[k][part]) for k in range(LIP_RINGS + 4)]
+        triangles = model.character.triangles
+        found.append(triangles[np.isin(triangles, np.concatenate(rings)).all(1)])
+    return found[0], found[1]
+
+
+def crossings(posed: Array, triangles: Ints, others: Ints) -> int:
+    """Return how many edges of two surfaces go through the other one."""
+    return _cut(posed, edges_of(triangles), others) + _cut(posed, edges_of(others), triangles)
+
+
+def _cut(posed: Array, edges: Ints, triangles: Ints) -> int:
+    """Return how many (edge, triangle) pairs without a common vertex intersect (Moller and Trumbore 1997)."""
+    ends, corners = posed[edges], posed[triangles]
+    middles = ends.mean(1), corners.mean(1)
+    reach = [
+        np.linalg.norm(points - middle[:, None], axis=2).max()
+        for points, middle in zip((ends, corners), middles, strict=True)
+    ]
+    pairs = cKDTree(middles[0]).sparse_distance_matrix(
+        cKDTree(middles[1]), sum(reach), output_type="coo_matrix"
+    )
+    edge, triangle = pairs.row, pairs.col
+    apart = ~(edges[edge][:, :, None] == triangles[triangle][:, None]).any((1, 2))
+    edge, triangle = edge[apart], triangle[apart]
+    start, along = ends[edge, 0], ends[edge, 1] - ends[edge, 0]
+    corner = corners[triangle, 0]
+    u, v = corners[triangle, 1] - corner, corners[triangle, 2] - corner
+    across = np.cross(along, v)
+    size = (u * across).sum(1)
+    size = np.where(np.abs(size) < 1e-12, np.inf, size)
+    at_u = ((start - corner) * across).sum(1) / size
+    normal = np.cross(start - corner, u)
+    at_v, share = (along * normal).sum(1) / size, (v * normal).sum(1) / size
+    return int(((at_u >= 0) & (at_v >= 0) & (at_u + at_v <= 1) & (share > 0) & (share < 1)).sum())
 
 
 def moved_share(model: FaceModel, shape: int) -> float:

@@ -18,8 +18,10 @@ LID_CREASE = {4: 0.10, 5: 0.45, 6: 0.15}
 LID_LINING: tuple[Colour, Colour] = ((0.94, 0.80, 0.855), (0.55, 0.36, 0.38))
 """The same for the lining, at the margin and deep inside."""
 MOUTH_DARK: Colour = (0.33, 0.075, 0.075)
+CORNER_DARK = 0.72
+"""What the corners of the mouth are multiplied by where the lips meet."""
 THROAT: Colour = (0.2, 0.04, 0.04)
-OCCLUDED: Colour = (0.79, 0.63, 0.59)
+OCCLUDED: Colour = (0.92, 0.83, 0.80)
 """Skin that sees no sky is multiplied by this: dark and warm."""
 PROBES = ((0.15, 0.30), (0.4, 0.30), (0.9, 0.28), (1.7, 0.25))
 HAIRLINE_SHADE, HAIRLINE_WIDTH = 0.75, 0.75
@@ -79,8 +81,9 @@ def _paint_mouth(colour: Array, skin: Skin, field: HeadField) -> Array:
     gloss = np.full(len(colour), PART_GLOSS)
     for k, share in zip(range(LIP_RINGS), (0.97, 0.97, 0.95, 0.93, 0.88, 0.42), strict=True):
         ring = skin.both_sides(skin.mouth_rings[k])
-        colour[ring] = mix(colour[ring], lip, share)
         corner = smoothstep(0.84, 0.98, np.abs(skin.vertices[ring, 0]) / half_width)
+        colour[ring] = mix(colour[ring], lip, (share * (1 - 0.45 * corner))[:, None])
+        colour[ring] *= mix(1, CORNER_DARK, corner * (1 - k / LIP_RINGS))[:, None]
         gloss[ring] = mix(0.33 if k < LIP_RINGS - 1 else 0.40, 0.60, corner)
     darkness = {-1: 0.15, -2: 0.5, -3: 0.85}
     for k in range(-MOUTH_BAG, 0):

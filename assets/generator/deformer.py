@@ -8,7 +8,8 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from generator.anatomy import Anatomy
-from generator.landmarks import FaceMap
+from generator.landmarks import REFERENCE, FaceMap
+from generator.lids import crease_heights
 from generator.meshes import vertex_normals
 from generator.openings import lip_curves
 from generator.skin import LIP_PROFILE, Skin
@@ -20,10 +21,18 @@ BAG_FOLLOWS = ((-1, 1.0), (-2, 0.97), (-3, 0.8), (-4, 0.5), (-5, 0.22))
 """(ring, share of the lips' motion that the inside of the mouth follows)"""
 LID_FOLLOWS = {-3: 0.8, -2: 1, -1: 1, 0: 1, 1: 0.95, 2: 0.87, 3: 0.76, 4: 0.62, 5: 0.47, 6: 0.32}
 """Share of the margin's turn that each lid ring makes."""
-BLINK_BULGE = {-3: 0, -2: 0, -1: 0.03, 0: 0.052, 1: 0.058, 2: 0.058, 3: 0.048, 4: 0.035, 5: 0.018, 6: 0.006}
+OPENING_FOLLOWS = 0.45
+"""Exponent of that share for a lid that opens: it slides under the skin above it, and must not pile up."""
+BLINK_BULGE = {-3: 0, -2: 0, -1: 0.04, 0: 0.070, 1: 0.077, 2: 0.073, 3: 0.056, 4: 0.040, 5: 0.020, 6: 0.006}
 """How far a closed lid rises, in eyeball radii: half way, the straight path of a blink would cut the eye."""
 LIFT_FOLLOWS = {-1: 0.9, 0: 1.0, 1: 1.0, 2: 1.0, 3: 1.0, 4: 0.9, 5: 0.5, 6: 0.2}
 """Share of a lift that each lid ring makes."""
+UNFOLDS = 1.2
+"""Share of its crease that the upper lid smooths on the whole way to the other margin."""
+JAW_LENGTH = 0.55
+"""Share of the way from chin to the angle of the jaw whose skin goes with it."""
+JAW_REACH = 2.0
+"""How far from the bone that skin lies."""
 CANTHUS_HOLD = 0.70
 """Share of its turn that a lid loses at the corners of the eye outside the margin: else skin folds over."""
 
@@ -40,6 +49,8 @@ class Lips:
     """0 contact line .. 1 border of the red."""
     height: Array
     """Height of this lip in that of the reference face, 1 there: what thins a lip must not turn it over."""
+    rise: Array
+    """Height of the vertex over the contact line, or depth under it, in the scale of the reference face."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,9 +111,11 @@ class SkinDeformer:
             if k < EYE_RINGS:
                 self.eye_ring[ring] = self.eye_ring[self.mirror[ring]] = k
         self.lip: Mask = (self.mouth_ring >= 0) & (self.mouth_ring < LIP_RINGS)
+        self.around_lip: Mask = (self.mouth_ring >= 0) & (self.mouth_ring <= LIP_RINGS)
+        """The lips and the ring outside them, which goes with their border: else the corners fold over it."""
         self.inside: Mask = self.mouth_ring < 0
         self.depth = np.zeros(n)
-        self.depth[self.lip] = np.array(LIP_PROFILE)[self.mouth_ring[self.lip]]
+        self.depth[self.around_lip] = np.array((*LIP_PROFILE, 1))[self.mouth_ring[self.around_lip]]
 
     def brush(self, centre: Sequence[float], radii: Sequence[float], left_only: bool = False) -> Array:
         """Return an (n,) bell about a point of the reference face, and about its image unless `left_only`."""
@@ -135,23 +148,34 @@ class SkinDeformer:
             moved[self.mirror[ring]] = moved[self.mirror[contact]] * share
         return moved
 
+    def _rise(self) -> Array:
+        """Return (n,) how far each lip vertex lies above or below the contact line."""
+        rise = np.zeros(self.count)
+        for right in (False, True):
+            contact = self.vertices[self.lip_ring(0, right), 1]
+            for k in range(LIP_RINGS + 1):
+                place = self.vertices[self.lip_ring(min(k, LIP_RINGS - 1), right), 1]
+                rise[self.lip_ring(k, right)] = np.abs(place - contact)
+        return rise
+
     def mouth(self, motion: Callable[[Lips], Array], reach: Sequence[float] = (5.4, 4.4, 6.0)) -> Array:
         """Return the (n, 3) displacement of the skin when the lips move by `motion`.
 
         `reach` are the half axes of the region about the mouth that gives way.
         """
-        handles = np.flatnonzero(self.lip)
+        handles = np.flatnonzero(self.around_lip)
         lips = Lips(
             self.across[handles],
             self.side[handles],
             self.depth[handles],
             np.where(self.side[handles] > 0, self.map.upper_lip_scale, self.map.lower_lip_scale),
+            self._rise()[handles] / self.map.mouth_scale,
         )
         values = motion(lips) * self.map.mouth_scale
         q = (self.reference - np.array([0, -5.8, 5.5])) / np.array(reach)
         still = ((q**2).sum(1) > 1) | (self.reference[:, 1] > -1.6) | (self.eye_ring < 8) | self.inside
         nose = self.brush((0, -2.3, 8.2), (0.9, 0.9, 0.9)) > 0.35
-        return self.follow_inside(self.spread(handles, values, (still | nose) & ~self.lip))
+        return self.follow_inside(self.spread(handles, values, (still | nose) & ~self.around_lip))
 
     def lids(
         self,
@@ -188,6 +212,7 @@ class SkinDeformer:
         axes[sine < 1e-6] = 0
         angles = np.where(is_upper, upper, lower) * np.arctan2(sine, (margin * opposite).sum(1))
 
+        folds = crease_heights(self.anatomy.eye)
         moved = np.zeros_like(self.vertices)
         for k, share in LID_FOLLOWS.items():
             ring = skin.eye_rings[k]
@@ -195,9 +220,12 @@ class SkinDeformer:
             rise = (blink * BLINK_BULGE[k] + lift * LIFT_FOLLOWS.get(k, 0)) * (1 - s**4) * radius
             if k >= 0:
                 rise = rise + np.where(is_upper, 0.006, 0) * blink
+            if k in folds:
+                rise[: len(folds[k])] -= UNFOLDS * max(upper, 0) * folds[k]
             length = np.linalg.norm(start, axis=1) + rise
             held = 1 - CANTHUS_HOLD * s**4 if k > 0 else 1.0
-            end = unit(turn(start, axes, angles * share * held)) * length[:, None]
+            turned = np.where(angles < 0, share**OPENING_FOLLOWS, share) * held
+            end = unit(turn(start, axes, angles * turned)) * length[:, None]
             end = end + np.array([*shift, 0]) * share * (1 - s**3)[:, None]
             moved[ring] = end - start
         left = self.vertices[:, 0] > 0
@@ -231,17 +259,30 @@ class SkinDeformer:
         ring = self.skin.mouth_rings[k]
         return self.mirror[ring] if right else ring
 
+    def _along_jaw(self) -> tuple[Array, Mask]:
+        """Return (n,) the share of the way back along the jaw, and which skin lies under its front part."""
+        bone = REFERENCE.skull.jaw
+        start, along = np.array(bone.start), np.array(bone.end) - np.array(bone.start)
+        from_start = np.c_[self.off_centre, self.reference[:, 1:]] - start
+        back = from_start @ along / (along @ along)
+        away = from_start - np.clip(back, 0, 1)[:, None] * along
+        below = (np.linalg.norm(away, axis=1) < JAW_REACH) & (away[:, 1] < 0)
+        return back, below & (back > 0) & (back < JAW_LENGTH)
+
     def jaw_weights(self) -> Array:
         """Return (n,) how far each skin vertex goes with the jaw."""
         v, across = self.reference, np.abs(self.across)
         y, z = v[:, 1], v[:, 2]
-        lower, upper = 0.40 + 0.60 * (1 - across**3), 0.40 * across**2.6
+        lower, upper = 0.40 + 0.60 * (1 - across**3.2) ** 0.9, 0.40 * across**2.6
         weights = np.zeros(self.count)
         weights[self.lip] = np.where(self.side == 0, 0.40, np.where(self.side < 0, lower, upper))[self.lip]
         chin = (y < -7.6) & (y > -10.4) & (z > 3.6) & (self.off_centre < 2.8)
         chin &= ~self.lip & ~self.inside & (self.mouth_ring > LIP_RINGS + 2)
         weights[chin] = 1
-        handles = self.lip | chin
+        back, below = self._along_jaw()
+        edge = below & (self.mouth_ring > LIP_RINGS + 2) & ~self.lip & ~self.inside & ~chin
+        weights[edge] = mix(1, 0.75, back[edge] / JAW_LENGTH)
+        handles = self.lip | chin | edge
         still = (y > -2.2) | (y < -12.8) | (z < -1.2) | ((z < 1.6) & (y < -11))
         still |= (self.eye_ring < 8) | self.inside | (self.brush((0, -2.6, 8.1), (1.0, 1.0, 1.5)) > 0.4)
         weights = np.clip(

@@ -30,20 +30,20 @@ def ear(field: HeadField) -> Mesh:
     spline = CubicSpline(np.linspace(0, 1, len(outline) + 1), np.r_[outline, outline[:1]], bc_type="periodic")
     rim, canal = spline(np.arange(AROUND) / AROUND), np.array(CANAL)
     lobe = smoothstep(-0.5, -1.3, rim[:, 1])
-    front = smoothstep(0.25, 0.55, rim[:, 0]) * (1 - lobe)
+    front = smoothstep(0.05, 0.60, rim[:, 0]) * (1 - lobe)
     rows = [np.c_[canal + (rim - canal) * size, np.full(AROUND, height)] for size, height in BACK]
     for size, helix, antihelix, concha in RINGS:
         height = helix * (1 - 0.75 * lobe) * (1 - 0.55 * front)
         height += antihelix * (1 - lobe) * (1 - front) * smoothstep(1.9, 1.2, rim[:, 1])
         height += concha * (1 - 0.5 * lobe) + 0.08 * lobe * smoothstep(1, 0.7, size)
-        tragus = np.exp(-(((rim[:, 1] + 0.05) / 0.55) ** 2)) * np.exp(-(((size - 0.62) / 0.22) ** 2))
-        rows.append(np.c_[canal + (rim - canal) * size, height + 0.55 * front * tragus])
+        tragus = np.exp(-(((rim[:, 1] + 0.05) / 0.70) ** 2)) * np.exp(-(((size - 0.64) / 0.24) ** 2))
+        rows.append(np.c_[canal + (rim - canal) * size, height + 0.36 * front * tragus])
     rows[-1][:] = rows[-1].mean(0)
     flat, triangles = strips(rows, closed=True)
     local = flat[:, [2, 1, 0]]  # (out, up, forward)
     hinge = np.array([0, 0, 0.6])
     local = (local - hinge) @ rotation((0, 1, 0), -33).T + hinge
-    local = local @ rotation((1, 0, 0), -8).T @ rotation((0, 0, 1), -3).T * 1.14
+    local = local @ rotation((1, 0, 0), -8).T @ rotation((0, 0, 1), -3).T * field.anatomy.skull.ear_size
     root = field.raycast(np.array([[0, -0.9, -0.55]]), np.array([[1.0, 0, 0]]), 12)[0]
     colour = mix(field.anatomy.colours.skin, field.anatomy.colours.cheek, 0.3)
     local = local + root + np.array([0.16, 0.05, 0.05])

@@ -69,6 +69,7 @@ class HeadField:
         d = join(d, ball(points, skull.muzzle), skull.muzzle.blend)
         d = join(d, bone(soft, skull.brow_ridge), skull.brow_ridge.blend)
         neck = join(bone(points, skull.neck), ball(points, skull.shoulders), skull.shoulders.blend)
+        neck = join(neck, bone(side, skull.neck_muscle), skull.neck_muscle.blend)
         d = join(d, neck, skull.neck.blend)
         from_eye = np.linalg.norm(side - np.array(eye.centre), axis=1)
         socket = mix(1.06, eye.socket, smoothstep(-0.5, 1.2, points[:, 1] - eye.centre[1]))
@@ -76,6 +77,10 @@ class HeadField:
         d = self._with_nose(d, points, side)
         d = join(d, ball(side, skull.brow_fill), skull.brow_fill.blend)
         d = cut(d, bone(side, skull.inner_canthus), skull.inner_canthus.blend)
+        for pad in skull.pads:
+            d = join(d, ball(side, pad), pad.blend)
+        for furrow in skull.furrows:
+            d = cut(d, bone(side, furrow), furrow.blend)
         if lids:
             x, y = side[:, 0] - eye.centre[0], points[:, 1] - eye.centre[1]
             upper = mix(0.62, 1.2, smoothstep(0.8, 2.0, x))

@@ -34,6 +34,15 @@ class Mesh:
         return Mesh(self.vertices[kept], triangles[whole], self.colours[kept])
 
 
+def joined(first: Mesh, second: Mesh) -> Mesh:
+    """Return two meshes as one."""
+    return Mesh(
+        np.r_[first.vertices, second.vertices],
+        np.r_[first.triangles, second.triangles + len(first.vertices)],
+        np.r_[first.colours, second.colours],
+    )
+
+
 def face_normals(vertices: Array, triangles: Ints) -> Array:
     """Return (m, 3) normals of twice the area's length."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))

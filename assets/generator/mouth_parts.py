@@ -44,11 +44,11 @@ def dental_arch(front: float, edge: float, upper: bool, colours: Colours) -> tup
     height = (0.95 if upper else 0.80) * (1 - 0.10 * u**2)
     rows = []
     for out, share in TOOTH_ROWS:
-        notch = 0.11 * gap * (1 if share < 0.9 else 0.4) if out > -0.2 else 0 * gap
+        notch = 0.08 * gap * (1 if share < 0.9 else 0.4) if out > -0.2 else 0 * gap
         y = edge + up * height * share + up * 0.07 * gap * (share < 0.3)
         rows.append(np.c_[x + out_x * (out - notch), y, z + out_z * (out - notch)])
     vertices, triangles = strips(rows)
-    shade = (1 - 0.20 * np.tile(gap, 8)) * np.repeat(TOOTH_SHADE, len(u))
+    shade = (1 - 0.12 * np.tile(gap, 8)) * np.repeat(TOOTH_SHADE, len(u))
     tint = mix((1, 0.97, 0.93), (1, 1, 1), np.tile(1 - gap, 8)[:, None])
     teeth = Mesh(
         vertices, triangles if upper else triangles[:, [0, 2, 1]], colours.teeth * shade[:, None] * tint

@@ -57,7 +57,7 @@ def lip_curves(mouth: Mouth) -> LipCurves:
     contact_y = (
         mouth.height + mouth.corner_lift * w**2.2 - 0.05 * bump(w, 0, 0.22) + 0.05 * bump(w, 0.42, 0.25)
     )
-    taper = (1 - w**2.6) ** 0.8
+    taper = (1 - w**2.8) ** 0.7
     bow = 1 + 0.10 * bump(w, 0.22, 0.15) - 0.16 * bump(w, 0, 0.11)
     rise = mouth.upper_lip * taper * bow
     drop = mouth.lower_lip * taper * (1 - 0.05 * bump(w, 0, 0.2))
@@ -67,7 +67,7 @@ def lip_curves(mouth: Mouth) -> LipCurves:
         upper=upper,
         contact_x=mouth.half_width * w,
         contact_y=contact_y,
-        border_x=(mouth.half_width + 0.16) * w + 0.08 * w**6,
+        border_x=(mouth.half_width + 0.16) * w + 0.03 * w**6,
         border_y=np.where(upper, contact_y + rise, contact_y - drop),
         taper=taper,
     )

@@ -12,12 +12,12 @@ from generator.shape import Shape
 from generator.topology import EYE_LOOP
 from generator.vectors import MIRROR, Array, columns, rotation, smoothstep, turn
 
-LASH_TURN = 0.70
+LASH_TURN = 0.95
 """Share of the margin's turn by which the lashes tilt as well."""
 LID_SHAPES = {
-    "eyeBlinkLeft": (0.69, 0.31, 1.0, 0.0),
+    "eyeBlinkLeft": (0.80, 0.20, 1.0, 0.0),
     "eyeWideLeft": (-0.26, -0.14, 0.0, 0.05),
-    "eyeSquintLeft": (0.20, 0.30, 0.0, 0.0),
+    "eyeSquintLeft": (0.13, 0.36, 0.0, 0.0),
     "browDownLeft": (0.10, 0.03, 0.0, 0.0),
     "cheekSquintLeft": (0.05, 0.13, 0.0, 0.0),
     "mouthSmileLeft": (0.03, 0.07, 0.0, 0.0),
@@ -25,7 +25,7 @@ LID_SHAPES = {
 """(upper, lower, blink, lift) of `SkinDeformer.lids`."""
 GAZE = {
     "eyeLookDownLeft": ((1, 0, 0), 24, 0.36, -0.10, (0.0, 0.0)),
-    "eyeLookUpLeft": ((1, 0, 0), -22, -0.19, 0.08, (0.0, 0.0)),
+    "eyeLookUpLeft": ((1, 0, 0), -22, -0.17, 0.16, (0.0, 0.0)),
     "eyeLookInLeft": ((0, 1, 0), -29, 0.02, 0.0, (-0.05, 0.0)),
     "eyeLookOutLeft": ((0, 1, 0), 29, 0.02, 0.0, (0.05, 0.0)),
 }
@@ -70,7 +70,7 @@ def brow_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Array
         return columns(-0.32 * (1 - t) ** 1.2, fall, 0.22 * (1 - t))
 
     def outer_up(t: Array) -> Array:
-        rise = 0.06 + 1.10 * smoothstep(0.05, 0.7, t) - 0.28 * smoothstep(0.75, 1, t)
+        rise = 0.95 * smoothstep(-0.1, 0.85, t)
         return columns(0.05 * t, rise, -0.10 * smoothstep(0.1, 0.7, t))
 
     def inner_up(t: Array) -> Array:

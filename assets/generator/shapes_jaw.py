@@ -1,5 +1,7 @@
 """Shapes of jaw and tongue, and mouthClose, which seals the lips of an open jaw."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from generator.character import Character
@@ -8,11 +10,11 @@ from generator.shape import Shape
 from generator.shapes_mouth import middle
 from generator.skin import LIP_PROFILE
 from generator.topology import MOUTH_LOOP
-from generator.vectors import Array, Vector, columns, mix, rotation, smoothstep
+from generator.vectors import Array, Vector, bump, columns, mix, rotation, smoothstep
 
 OPEN_ANGLE = 17.5
 OPEN_SHIFT: Vector = (0, -0.35, 0.45)
-TONGUE_OUT_OPENS = 0.36
+TONGUE_OUT_OPENS = 0.42
 """How far tongueOut opens the jaw, so that the tongue clears the teeth."""
 
 
@@ -51,7 +53,25 @@ def narrow(lip: Lips) -> Array:
 def tongue_lips(lip: Lips) -> Array:
     """Lips make room for the tongue."""
     m, low, high = middle(lip.across), lip.side < 0, lip.side > 0
-    return columns(0, -0.22 * low * m + 0.10 * high * m, 0.10 * low * m)
+    return columns(0, -0.34 * low * m + 0.10 * high * m, 0.10 * low * m)
+
+
+def round_pucker(lip: Lips) -> Array:
+    """Lips that are both puckered and opened by the jaw make an O, not a slot."""
+    x = lip.across
+    wide = 0.34 * x + 0.25 * np.sign(x) * bump(np.abs(x), 0.62, 0.32)
+    return columns(wide, -0.14 * lip.side * bump(x, 0, 0.7), -0.10 * (1 - x**2))
+
+
+def round_funnel(lip: Lips) -> Array:
+    """The same for a funnel, which is open already and opens less."""
+    x = lip.across
+    wide = 0.32 * x + 0.30 * np.sign(x) * bump(np.abs(x), 0.62, 0.32)
+    return columns(wide, -0.30 * lip.side * bump(x, 0, 0.7), -0.14 * (1 - x**2))
+
+
+ROUNDED: dict[str, Callable[[Lips], Array]] = {"mouthPucker": round_pucker, "mouthFunnel": round_funnel}
+"""What the product of these shapes and jawOpen adds."""
 
 
 def jaw_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]:
@@ -82,14 +102,14 @@ def seal(deformer: SkinDeformer, opened: Array, upper_share: Vector) -> Array:
             np.where(upper, contact[opposite], contact),
         )
         meeting = of_upper + np.array(upper_share) * (of_lower - of_upper)
-        for k, t in enumerate(LIP_PROFILE):
+        for k, t in enumerate((*LIP_PROFILE, 1)):
             ring = deformer.lip_ring(k, right)
-            moved[ring] = np.where(upper, meeting - of_upper, meeting - of_lower) * mix(1, 0.80, t)
+            moved[ring] = np.where(upper, meeting - of_upper, meeting - of_lower) * mix(1, 0.72, t)
     v = deformer.reference
-    handles = np.flatnonzero(deformer.lip)
+    handles = np.flatnonzero(deformer.around_lip)
     q = (v - np.array([0, -5.8, 5.5])) / np.array([5.6, 4.6, 6.5])
     still = ((q**2).sum(1) > 1) | (v[:, 1] > -2.2) | (v[:, 1] < -8.6) | deformer.inside
-    return deformer.follow_inside(deformer.spread(handles, moved[handles], still & ~deformer.lip))
+    return deformer.follow_inside(deformer.spread(handles, moved[handles], still & ~deformer.around_lip))
 
 
 def _tongue_out(character: Character, deformer: SkinDeformer, jaw: Jaw) -> Shape:
@@ -97,9 +117,9 @@ def _tongue_out(character: Character, deformer: SkinDeformer, jaw: Jaw) -> Shape
     opened = jaw.moved(OPEN_ANGLE * TONGUE_OUT_OPENS, (0, -0.12, 0.15))
     place = character.place("tongue")
     f = np.clip((place[:, 2] - (place[:, 2].max() - 4.3)) / 4.3, 0, 1)  # 0 root .. 1 tip
-    drop = -0.95 * smoothstep(0.55, 1.05, f) ** 1.3 + 0.42 * smoothstep(0.15, 0.6, f)
-    flatten = -0.25 * (place[:, 1] - place[:, 1].mean()) * smoothstep(0.3, 0.8, f)
-    out = columns(-0.10 * place[:, 0] * smoothstep(0.6, 1, f), drop + flatten, 2.75 * smoothstep(0, 0.9, f))
+    drop = -1.0 * smoothstep(0.55, 1.05, f) ** 1.3 + 0.70 * smoothstep(0.10, 0.5, f)
+    flatten = -0.42 * (place[:, 1] - place[:, 1].mean()) * smoothstep(0.1, 0.5, f)
+    out = columns(0.10 * place[:, 0] * smoothstep(0.5, 1, f), drop + flatten, 2.75 * smoothstep(0, 0.9, f))
     return Shape(
         opened.skin + deformer.mouth(tongue_lips),
         {**opened.parts, "tongue": opened.parts["tongue"] + out},

@@ -7,7 +7,7 @@ import numpy as np
 from generator.deformer import Lips, SkinDeformer
 from generator.shapes_eyes import beside_lids
 from generator.topology import LIP_RINGS
-from generator.vectors import Array, bump, columns, mix, smoothstep
+from generator.vectors import Array, bump, columns, mix, smoothstep, unit
 
 Motion = Callable[[Lips], Array]
 WIDE = (6.2, 5.2, 6.5)
@@ -28,11 +28,11 @@ def smile(lip: Lips) -> Array:
     """Corner out, up and back; the lip between bends as one curve."""
     x = lip.across
     corner = left_side(x) ** 1.5
-    between, end = bump(x, 0.45, 0.35), bump(x, 0.95, 0.30)
-    up = 0.88 * left_side(x, 0, 1.04) ** 2 - 0.09 * between - 0.05 * bump(x, 0, 0.4)
-    back = -0.50 * corner**1.5 - 0.08 * between - 0.12 * end
-    fold = lip.depth * between
-    return columns(0.84 * corner + 0.02 * end, up + 0.02 * lip.side * fold, back + 0.03 * fold)
+    between, middle_ = bump(x, 0.5, 0.4), bump(x, 0, 0.5)
+    up = 0.70 * left_side(x, 0, 1.06) ** 1.8 - 0.04 * between + 0.02 * middle_
+    thin = -0.13 * lip.side * lip.depth * lip.height * (between + 0.5 * middle_) * (1 - x**4)
+    back = -0.72 * corner**1.4 - 0.10 * between - 0.04 * middle_
+    return columns(0.78 * corner, up + thin, back)
 
 
 def frown(lip: Lips) -> Array:
@@ -64,7 +64,7 @@ def press(lip: Lips) -> Array:
     """Lips pressed together, the red thin."""
     x = lip.across
     on = smoothstep(-0.35, 0.35, x)
-    up = -lip.side * mix(0, 0.36, lip.depth) * lip.height * on * middle(x)
+    up = -lip.side * 0.52 * lip.rise * on * middle(x)
     back = -0.13 * (1 - 0.6 * lip.depth) * on * (1 - 0.6 * np.abs(x))
     return columns(0.10 * left_side(x, -0.3), up, back)
 
@@ -96,31 +96,31 @@ def pucker(lip: Lips) -> Array:
     """Corners in, lips out: a kiss."""
     x, side, t = lip.across, lip.side, lip.depth
     a = np.abs(x)
-    up = -0.02 + side * 0.10 * t * (1 - 0.4 * a) - 0.06 * side * t * (1 - a)
-    return columns(-1.18 * x * (1 - 0.12 * t), up, 0.92 + 0.15 * a**1.5 - 0.10 * t)
+    up = -0.02 + side * t * (0.06 + 0.10 * bump(a, 0.6, 0.4)) * (1 - a**4) + 0.05 * bump(a, 0, 0.25) * (1 - t)
+    return columns(-1.10 * x, up, 0.90 - 0.26 * t * (1 - a**3) - 0.06 * a**2)
 
 
 def funnel(lip: Lips) -> Array:
     """Lips out and apart: an open O."""
     x, side, t = lip.across, lip.side, lip.depth
     a = np.abs(x)
-    round_ = np.sqrt(np.clip(1 - a**3.2, 0, 1))
-    open_ = side * np.where(side > 0, 0.46, 0.66) * round_ * mix(1, 0.84, t)
+    round_ = np.sqrt(np.clip(1 - a**2.4, 0, 1))
+    open_ = side * np.where(side > 0, 0.36, 0.54) * round_ * mix(1, 0.84, t)
     return columns(-1.05 * x, -0.12 * a**2 + open_, 0.72 + 0.10 * a - 0.06 * t + 0.10 * round_ * t)
 
 
 def roll_lower(lip: Lips) -> Array:
     """Lower lip rolled in over the teeth."""
-    m, low, t = middle(lip.across), lip.side < 0, lip.depth
-    back = low * mix(-0.32, -0.14, t) - 0.06 * (lip.side > 0) * (1 - t)
-    return columns(0, low * m * mix(0, 0.50, t**0.8) * lip.height, m * back)
+    m, low, t = middle(lip.across) ** 2, lip.side < 0, lip.depth
+    back = low * mix(-0.29, -0.14, t) - 0.06 * (lip.side > 0) * (1 - t)
+    return columns(0, 0.68 * low * m * lip.rise, m * back)
 
 
 def roll_upper(lip: Lips) -> Array:
     """Upper lip rolled in over the teeth."""
-    m, high, t = middle(lip.across), lip.side > 0, lip.depth
-    back = high * mix(-0.30, -0.10, t) - 0.06 * (lip.side < 0) * (1 - t)
-    return columns(0, high * m * mix(0, -0.40, t**0.8) * lip.height, m * back)
+    m, high, t = middle(lip.across) ** 2, lip.side > 0, lip.depth
+    back = high * mix(-0.27, -0.10, t) - 0.06 * (lip.side < 0) * (1 - t)
+    return columns(0, -0.68 * high * m * lip.rise, m * back)
 
 
 def shrug_lower(lip: Lips) -> Array:
@@ -146,7 +146,7 @@ def sideways(lip: Lips) -> Array:
 def puff(lip: Lips) -> Array:
     """Lips pushed out by air."""
     x = lip.across
-    return columns(0.10 * x, 0, 0.16 * (1 - 0.3 * np.abs(x)) * (0.4 + 0.6 * lip.depth))
+    return columns(0.06 * x, 0.05 * lip.side * lip.depth, 0.26 * (0.6 + 0.4 * lip.depth))
 
 
 MOTIONS: dict[str, tuple[Motion, tuple[float, float, float]]] = {
@@ -158,7 +158,7 @@ MOTIONS: dict[str, tuple[Motion, tuple[float, float, float]]] = {
     "mouthLowerDownLeft": (lower_down, (5.4, 4.4, 6.0)),
     "mouthUpperUpLeft": (upper_up, (5.4, 4.4, 6.0)),
     "noseSneerLeft": (sneer, (5.4, 4.4, 6.0)),
-    "mouthPucker": (pucker, (5.2, 4.0, 6.5)),
+    "mouthPucker": (pucker, (5.6, 4.4, 6.5)),
     "mouthFunnel": (funnel, (5.2, 4.2, 6.5)),
     "mouthRollLower": (roll_lower, (5.4, 4.4, 6.0)),
     "mouthRollUpper": (roll_upper, (5.4, 4.4, 6.0)),
@@ -171,20 +171,19 @@ MOTIONS: dict[str, tuple[Motion, tuple[float, float, float]]] = {
 
 BRUSHES: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...], str], ...]] = {
     "mouthSmileLeft": (
-        ((3.8, -3.0, 5.4), (1.5, 1.15, 2.5), (0.10, 0.34, 0.46), "lips lids"),
-        ((3.3, -5.0, 5.6), (1.0, 1.0, 1.8), (0.16, 0.05, 0.10), "lips"),
-        ((2.05, -4.15, 6.6), (0.5, 0.8, 1.2), (0.05, 0.05, -0.13), "lips"),
+        ((4.0, -2.5, 5.2), (2.0, 1.5, 3.0), (0.04, 0.30, 0.20), "lips lids"),
+        ((1.2, -3.2, 7.4), (0.7, 0.7, 1.2), (0.10, 0.06, -0.04), ""),
     ),
     "mouthFrownLeft": (((2.9, -7.7, 5.6), (1.1, 1.1, 2), (0.1, -0.12, 0.12), "lips"),),
     "mouthDimpleLeft": (((3.5, -6.0, 5.2), (0.9, 1.1, 1.8), (0.10, 0, 0.16), "lips"),),
     "mouthPressLeft": (((3.2, -6.3, 5.6), (1.0, 1.2, 1.8), (0.04, 0, 0.10), "lips"),),
     "mouthUpperUpLeft": (
         ((2.2, -4.0, 6.4), (0.9, 0.9, 1.6), (0.06, 0.22, 0.14), "lips"),
-        ((1.1, -3.3, 7.5), (0.6, 0.6, 1.0), (0.04, 0.12, 0), ""),
+        ((1.1, -3.3, 7.5), (0.6, 0.6, 1.0), (0.05, 0.06, 0.02), ""),
     ),
     "noseSneerLeft": (
-        ((1.05, -3.2, 7.6), (0.80, 0.85, 1.3), (0.12, 0.56, -0.06), ""),
-        ((2.2, -2.6, 6.2), (1.0, 1.3, 1.6), (0, 0.36, 0.16), "lips lids"),
+        ((1.15, -3.0, 7.4), (0.75, 0.90, 1.3), (0.14, 0.24, 0.03), ""),
+        ((2.1, -2.7, 6.4), (1.1, 1.3, 1.8), (0, 0.36, 0.16), "lips lids"),
         ((0.55, 0.9, 7.0), (0.6, 1.1, 1.6), (0, -0.16, 0.07), "lids"),
         ((1.6, 2.2, 6.6), (1.2, 0.9, 1.6), (-0.1, -0.24, 0.05), "lids"),
     ),
@@ -192,6 +191,31 @@ BRUSHES: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], tuple[float
     "cheekSquintLeft": (((3.9, -2.45, 5.0), (1.9, 1.25, 3.0), (0, 0.62, 0.36), "lids"),),
 }
 """Shape -> (centre, radii, displacement, what the brush keeps off) on the left side."""
+
+
+FOLDS: dict[str, tuple[tuple[tuple[float, float], ...], float, float, float]] = {
+    "mouthSmileLeft": (((1.55, -2.9), (2.35, -3.7), (3.05, -4.8), (3.30, -6.2)), 0.60, 0.08, 0.15),
+}
+"""Shape -> (line in x and y, width, depth of the groove, height of the flesh beside it) on the left side."""
+
+
+def folded(deformer: SkinDeformer, line: Array, width: float, depth: float, height: float) -> Array:
+    """Return the (n, 3) displacement of a soft fold along a line: a groove, and flesh that rolls over it."""
+    place = deformer.reference[:, :2]
+    start, along = line[:-1], np.diff(line, axis=0)
+    share = np.clip(((place[:, None] - start) * along).sum(2) / (along**2).sum(1), 0, 1)
+    away = place[:, None] - start - share[..., None] * along
+    nearest = np.linalg.norm(away, axis=2).argmin(1)
+    every = np.arange(len(place))
+    away, share, along = away[every, nearest], (share + np.arange(len(start)))[every, nearest], along[nearest]
+    across = (away * unit(np.c_[-along[:, 1], along[:, 0]])).sum(1)
+    beyond = np.linalg.norm(away - across[:, None] * unit(np.c_[-along[:, 1], along[:, 0]]), axis=1)
+    share = share / len(start)
+    strength = smoothstep(0, 0.25, share) * smoothstep(1, 0.6, share) * np.exp(-((beyond / width) ** 2))
+    strength = strength * (deformer.reference[:, 2] > 2) * (deformer.vertices[:, 0] > 0)
+    profile = height * bump(across, 1.7 * width, 1.4 * width) - depth * bump(across, 0, width)
+    result: Array = deformer.normals * (strength * profile)[:, None]
+    return result
 
 
 def beside_lips(deformer: SkinDeformer) -> Array:
@@ -212,8 +236,10 @@ def mouth_shapes(deformer: SkinDeformer) -> dict[str, Array]:
             for region in keep_off.split():
                 strength = strength * keep[region]
             moved += strength[:, None] * np.array(displacement)
+    for name, (line, *form) in FOLDS.items():
+        shapes[name] += folded(deformer, np.array(line), *form) * keep["lips"][:, None]
     chin = deformer.brush((0, -8.7, 7.0), (1.7, 1.0, 2.0)) * keep["lips"]
     shapes["mouthShrugLower"] += chin[:, None] * np.array([0, 0.42, 0.12])
-    cheeks = deformer.brush((4.15, -5.1, 4.2), (2.1, 1.9, 3.2)) * keep["lips"]
-    shapes["cheekPuff"] += deformer.normals * (cheeks * 1.05)[:, None]
+    cheeks = deformer.brush((3.7, -4.9, 4.7), (1.9, 1.9, 2.6)) * keep["lips"]
+    shapes["cheekPuff"] += deformer.normals * (cheeks * 1.0)[:, None]
     return shapes

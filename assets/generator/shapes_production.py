@@ -13,7 +13,7 @@ from generator.shape import Shape
 from generator.shapes_eyes import GAZE, LID_SHAPES, brow_shape, gaze_shape, lid_shape
 from generator.shapes_jaw import OPEN_ANGLE, OPEN_SHIFT, Jaw, seal
 from generator.shapes_mouth import Motion, beside_lips, left_side, middle
-from generator.vectors import Array, bump, columns, mix, smoothstep
+from generator.vectors import Array, columns, mix, smoothstep
 
 HALVED = (
     "browInnerUp",
@@ -26,6 +26,8 @@ HALVED = (
     "mouthShrugUpper",
 )
 """Symmetrical shapes that also come as a left and a right half."""
+FADE, LIPS_FADE = 0.7, 2.0
+"""How far from the middle one half fades into the other; a shorter way would crease lips that go forward."""
 LID_PARTS = {"eyeUpperUpLeft": (-0.22, 0.0), "eyeUpperDownLeft": (0.40, 0.0), "eyeLowerUpLeft": (0.0, 0.35)}
 """Single lids: (upper, lower) of `SkinDeformer.lids`."""
 PUPILS = {"eyePupilWideLeft": 0.35, "eyePupilNarrowLeft": -0.35}
@@ -107,18 +109,6 @@ def downwards(lip: Lips) -> Array:
     return columns(0, -0.34 + 0 * lip.across, -0.04)
 
 
-def open_pucker(lip: Lips) -> Array:
-    """Corrective of a pucker over an open jaw: the opening gets round."""
-    x = lip.across
-    return columns(-0.10 * x, -0.10 * lip.side * bump(x, 0, 0.6), 0.10 * (1 - x**2))
-
-
-def open_funnel(lip: Lips) -> Array:
-    """Corrective of a funnel over an open jaw: the lips roll less far out."""
-    x = lip.across
-    return columns(0.12 * x, -0.12 * lip.side * bump(x, 0, 0.7), -0.14 * (1 - x**2))
-
-
 MOTIONS: dict[str, Motion] = {
     "mouthTightenUpperLeft": tighten_upper,
     "mouthTightenLowerLeft": tighten_lower,
@@ -130,8 +120,6 @@ MOTIONS: dict[str, Motion] = {
     "mouthLowerOutLeft": lower_out,
     "mouthUp": upwards,
     "mouthDown": downwards,
-    "jawOpen_mouthPucker": open_pucker,
-    "jawOpen_mouthFunnel": open_funnel,
 }
 
 
@@ -147,8 +135,9 @@ def production_shapes(
             strength = deformer.brush(centre, radii, left_only=True) * keep
             skin += strength[:, None] * np.array(displacement)
         shapes[name] = Shape(deformer.slide_on_eyes(skin))
-    left = smoothstep(-0.7, 0.7, deformer.reference[:, 0])[:, None]
     for name in HALVED:
+        reach = LIPS_FADE if name.startswith("mouth") else FADE
+        left = smoothstep(-reach, reach, deformer.reference[:, 0])[:, None]
         shapes[name + "Left"] = Shape(arkit[name].skin * left)
     shapes["browLateralLeft"] = Shape(brow_shape(character, deformer, _frown_lines))
     for name, (upper, lower) in LID_PARTS.items():

@@ -9,9 +9,10 @@ from generator.vectors import MIRROR, mix, repeated
 AROUND = 36
 ROWS = (
     (2.8, -13.6, 0), (3.0, -12.6, 0), (3.28, -12.3, 0), (3.56, -12.55, 0),
-    (3.68, -13.3, 0.1), (4.5, -14.05, 0.5), (6.4, -14.8, 1.0), (8.4, -16.0, 1.3),
+    (3.68, -13.3, 0.1), (4.5, -13.95, 0.5), (6.1, -14.45, 1.0), (7.5, -15.05, 1.25), (8.15, -16.0, 1.3),
+    (7.7, -16.4, 1.3), (0, -16.4, 1.3),
 )  # fmt: skip
-"""(radius, height, how much it is shoulder) from the inside of the collar outwards."""
+"""(radius, height, how much it is shoulder) from the inside of the collar outwards to the closed base."""
 
 
 def shirt(skull: Skull, colours: Colours) -> Mesh:
@@ -32,4 +33,4 @@ def shirt(skull: Skull, colours: Colours) -> Mesh:
         triangles = triangles[:, [0, 2, 1]]
     colour = repeated(colours.shirt, len(vertices))
     colour[: 4 * AROUND] *= 0.9
-    return Mesh(vertices, triangles, colour)
+    return Mesh(vertices, triangles, colour).welded()

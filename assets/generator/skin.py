@@ -9,10 +9,10 @@ from scipy.interpolate import PchipInterpolator
 from generator.anatomy import Anatomy
 from generator.field import HeadField
 from generator.landmarks import FaceMap
-from generator.openings import LipCurves, lid_margin, lip_curves
+from generator.lids import ease_lids, fold_upper_lid, place_eye_rings
+from generator.openings import LipCurves, lip_curves
 from generator.topology import (
     COLUMNS,
-    EYE_LOOP,
     EYE_RINGS,
     LIP_RINGS,
     MOUTH_BAG,
@@ -31,8 +31,6 @@ LIP_PROFILE = (0, 0.10, 0.28, 0.54, 0.80, 1)
 UPPER_FULLNESS = (-0.75, 0.46, 0.95, 1.0, 0.58, 0.06)
 LOWER_FULLNESS = (-0.70, 0.48, 0.96, 1.0, 0.60, 0.04)
 RELAXATIONS = 24
-CREASE = {4: 0.15, 5: -1.0, 6: 0.50, 7: 0.55, 8: 0.25}
-"""Height of the lid rings at the crease of the upper lid."""
 LIP_ROLL = {4: 0.6, 5: 1.0, 6: 0.72, 7: 0.40, 8: 0.15}
 """How far the mouth rings come forward with a full lip."""
 
@@ -60,11 +58,12 @@ def build_skin(field: HeadField) -> Skin:
     curves = lip_curves(anatomy.mouth)
     vertices = np.zeros((half.count, 3))
     _place_grid(vertices, half, field)
-    _place_eye_rings(vertices, half, anatomy)
+    place_eye_rings(vertices, half, anatomy)
     _place_mouth_rings(vertices, half, field, curves)
     middle = _middle(half)
     _relax(vertices, half, field, middle)
-    _fold_upper_lid(vertices, half, anatomy)
+    ease_lids(vertices, half, anatomy)
+    fold_upper_lid(vertices, half, anatomy)
     _place_lips(vertices, half, field, curves)
     _roll_lips(vertices, half, anatomy, curves)
     _place_bag(vertices, half, anatomy, curves)
@@ -99,8 +98,8 @@ def _place_grid(vertices: Array, half: HalfGrid, field: HeadField) -> None:
             (11, 5, 0),
             (17, eye_y + 1.195 * eye.radius, 0),
             (27, eye_y - 1.024 * eye.radius, 0),
-            (39, mouth.height + 1.60, 0),
-            (47, mouth.height - 1.65, 0),
+            (39, mouth.height + 1.60 + 0.4 * mouth.corner_lift, 0),
+            (47, mouth.height - 1.65 + 0.4 * mouth.corner_lift, 0),
             (53, chin_y + 0.05, -14),
             (58, chin_y + 0.55, -34),
             (62, chin_y - 0.75, -46),
@@ -119,38 +118,15 @@ def _place_grid(vertices: Array, half: HalfGrid, field: HeadField) -> None:
     vertices[: len(origins)] = field.raycast(origins, directions, 15)
 
 
-def _place_eye_rings(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
-    """Put the margin and four rings on the lid sphere, the lining behind it, and blend out to the grid."""
-    eye = anatomy.eye
-    centre, radius = np.array(eye.centre), eye.radius * eye.lid_radius
-    margin = lid_margin(eye)
-    middle = unit(margin.mean(0) + np.array([0, 0.02, 0]))
-    away = unit(margin - (margin @ middle)[:, None] * middle)
-    opening = np.arccos(np.clip(margin @ middle, -1, 1))
-    upper = np.arange(EYE_LOOP) <= EYE_LOOP // 2
-    side = np.abs(np.linspace(-1, 1, EYE_LOOP // 2 + 1))
-    side = np.concatenate([side, side[::-1][1:-1]])
-
-    def at(angle: Array, distance: float) -> Array:
-        return centre + distance * (np.cos(angle)[:, None] * middle + np.sin(angle)[:, None] * away)
-
-    vertices[half.eye_rings[0]] = centre + radius * margin
-    width = np.where(upper, 0.36, 0.30) * (1 - 0.35 * side**4)
-    for k in range(1, EYE_RINGS):
-        on_lid = at(opening + width * (k / 5) ** 1.15, radius)
-        share = (k - 4) / (EYE_RINGS - 4) if k > 4 else 0
-        vertices[half.eye_rings[k]] = mix(on_lid, vertices[half.eye_rings[EYE_RINGS]], share)
-    for k, extra in {-1: -0.012, -2: 0.10, -3: 0.30}.items():
-        vertices[half.eye_rings[k]] = at(opening + extra, eye.radius * 1.012)
-
-
 def _place_mouth_rings(vertices: Array, half: HalfGrid, field: HeadField, curves: LipCurves) -> None:
     """Put the border of the red on the face and spread the rings outside it evenly."""
     x, y = curves.border_x, curves.border_y
     border = np.stack([x, y, field.front(x, y)], 1)
+    outside = border + np.outer(0.16 * curves.across**6, (1, 0, 0))
     for k in range(LIP_RINGS - 1, MOUTH_RINGS):
         share = (k - LIP_RINGS + 1) / (MOUTH_RINGS - LIP_RINGS + 1)
-        vertices[half.mouth_rings[k]] = mix(border, vertices[half.mouth_rings[MOUTH_RINGS]], share)
+        start = border if k < LIP_RINGS else outside
+        vertices[half.mouth_rings[k]] = mix(start, vertices[half.mouth_rings[MOUTH_RINGS]], share)
 
 
 def _middle(half: HalfGrid) -> Mask:
@@ -181,11 +157,10 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
     free[half.grid[ROWS]] = free[0] = False
     for k in range(3, EYE_RINGS):
         free[half.eye_rings[k]] = True
-    for k in range(LIP_RINGS + 1, MOUTH_RINGS):
+    for k in range(LIP_RINGS, MOUTH_RINGS):
         free[half.mouth_rings[k]] = True
     moving = np.flatnonzero(free)
-    for start in (moving, half.mouth_rings[LIP_RINGS]):
-        vertices[start] = field.project(vertices[start])
+    vertices[moving] = field.project(vertices[moving])
     for round_ in range(RELAXATIONS):
         step = ((weights @ vertices) / total[:, None] - vertices)[moving]
         step[middle[moving], 0] = 0
@@ -194,17 +169,6 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
         vertices[moving] += 0.55 * step
         vertices[moving] = field.project(vertices[moving], 3 if round_ == RELAXATIONS - 1 else 1)
         vertices[middle, 0] = 0
-
-
-def _fold_upper_lid(vertices: Array, half: HalfGrid, anatomy: Anatomy) -> None:
-    """Press the crease into the upper lid and let the skin above it hang over a little."""
-    centre = np.array(anatomy.eye.centre)
-    count = EYE_LOOP // 2 + 1
-    share = 1 - np.abs(np.linspace(-1, 1, count)) ** 4
-    for k, height in CREASE.items():
-        ring = half.eye_rings[k][:count]
-        out = unit(vertices[ring] - centre)
-        vertices[ring] += out * (height * anatomy.eye.crease * share)[:, None]
 
 
 def _roll_lips(vertices: Array, half: HalfGrid, anatomy: Anatomy, curves: LipCurves) -> None:
@@ -231,11 +195,14 @@ def _place_lips(vertices: Array, half: HalfGrid, field: HeadField, curves: LipCu
         full = np.where(
             curves.upper, mouth.upper_fullness * upper_profile(t), mouth.lower_fullness * lower_profile(t)
         )
-        z = mix(contact_z, border_z, t**1.2) + full * thickness - 0.15 * corner * (1 - t)
+        z = mix(contact_z, border_z, t**1.2) + full * thickness - 0.24 * corner * (1 - t)
         x = mix(curves.contact_x, curves.border_x, t)
         y = mix(curves.contact_y, curves.border_y, t)
         vertices[half.mouth_rings[k]] = np.stack([x, y, z], 1)
-    vertices[half.mouth_rings[0], 1] += np.where(curves.upper, 0.003, -0.003) * (curves.along < 1)
+    inner, outer = (vertices[half.mouth_rings[LIP_RINGS + k]] for k in (-1, 1))
+    between = 0.45 + 0.25 * smoothstep(0.90, 1, w)  # farther out at the corners, which it would touch
+    vertices[half.mouth_rings[LIP_RINGS]] = mix(inner, outer, between[:, None])
+    vertices[half.mouth_rings[0], 1] += np.where(curves.upper, 0.0006, -0.0006) * (curves.along < 1)
 
 
 def _place_bag(vertices: Array, half: HalfGrid, anatomy: Anatomy, curves: LipCurves) -> None:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from facepin.core.quality import LEVELS, level
 from facepin.desk import Desk
 from facepin.files.formats import write_model
 from facepin.files.pose_file import read_pose, write_pose
@@ -39,9 +40,13 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT if session is not None:
             desk.say("")
             _ask_for(request, desk, session)
-        case Command.SCREENSHOT if desk.stage is not None and session is not None:
+        case Command.SCREENSHOT | Command.SCREENSHOT_PINS if desk.stage is not None and session is not None:
             shown = desk.view.panes[session.active]
-            path = save_picture(desk.stage, shown, desk.camera, desk.viewport, desk.pictures)
+            tool = desk.tool if request is Command.SCREENSHOT_PINS else None
+            samples = max(
+                level(desk.view.quality, software=False, moving=False).samples, LEVELS["good"].samples
+            )
+            path = save_picture(desk.stage, shown, desk.camera, desk.viewport, desk.pictures, tool, samples)
             desk.say(f"Saved {path}")
         case _:
             return False

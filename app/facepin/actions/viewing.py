@@ -33,8 +33,10 @@ def act(request: Request, desk: Desk) -> bool:
         case Command() if request in TURNS:
             yaw, pitch = TURNS[request]
             desk.look(desk.camera.orbited(yaw, pitch))
+        case Command.SHADING:
+            shown.next_mode()
         case Command.HEAT:
-            shown.heat = not shown.heat
+            shown.toggle_heat()
         case Command.WIREFRAME:
             shown.wireframe = not shown.wireframe
         case Command.GHOST:

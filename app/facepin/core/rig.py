@@ -7,10 +7,21 @@ from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.columns import Columns
+
+
+@dataclass(frozen=True, eq=False)
+class Texture:
+    """A picture that colours a surface."""
+
+    pixels: NDArray[np.uint8]
+    """(h, w, 4) sRGB and alpha, first row on top."""
+    repeats: tuple[bool, bool] = (True, True)
+    """Whether it goes on beyond its edges, along rows and columns; otherwise its edge does."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +35,10 @@ class Part:
     """Base colour, sRGB 0..1, or None where the file gives none."""
     roughness: float = 0.55
     """0 (mirror) .. 1 (chalk)."""
+    texture: Texture | None = None
+    """Multiplies the base colour, where `Rig.texture_places` says."""
+    cutout: float | None = None
+    """Alpha of the texture below which there is nothing; None for what is solid."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +78,9 @@ class Rig:
     """Pairs (a, b) of shapes: a is made to be used with at most as much of it as of b."""
     colours: Points | None = None
     """(n, 3) float32 sRGB 0..1 vertex colours, or None."""
+    texture_places: Points | None = None
+    """(n, 2) float32, where each vertex is in the textures: 0, 0 first corner of the first row, 1, 1 last of
+    the last; or None."""
     warnings: tuple[str, ...] = ()
     """What the reader had to mend or leave out, one line each."""
     source: Path | None = None

@@ -12,7 +12,7 @@ from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.delta_columns import Delta, checked_points, delta_columns, side_by_side
 from facepin.core.errors import FacepinError
 from facepin.core.names import clean_name, clean_names, listed
-from facepin.core.rig import Part, Rig
+from facepin.core.rig import Part, Rig, Texture
 
 Pair = tuple[int, int]
 
@@ -30,6 +30,8 @@ class PartLook:
     colour: tuple[float, float, float] | None = None
     """Base colour, sRGB 0..1."""
     roughness: float = Part.roughness
+    texture: Texture | None = None
+    cutout: float | None = None
 
 
 def build_rig(
@@ -43,6 +45,7 @@ def build_rig(
     parts: Sequence[PartLook] = (),
     face_parts: ArrayLike | None = None,
     colours: ArrayLike | None = None,
+    texture_places: ArrayLike | None = None,
     limits: ArrayLike | None = None,
     rest_weights: ArrayLike | None = None,
     warnings: Iterable[str] = (),
@@ -67,6 +70,8 @@ def build_rig(
         Faces are regrouped by part (in the order of `parts`, stable within one); vertices keep their order.
         `face_parts` may be left out for a single part.
     colours : (n, 3) floats, sRGB 0..1
+    texture_places : (n, 2) floats
+        Where the vertices are in the textures of their parts.
     limits : (k, 2)
         0..1 when left out; widened where a rest weight lies outside.
     rest_weights : (k,)
@@ -132,6 +137,9 @@ def build_rig(
         ties=_ties(shape_names),
         combinations=frozen(np.reshape(combined, (-1, 2)), np.int32),
         colours=None if colours is None else _colours(where, colours, len(positions)),
+        texture_places=None
+        if texture_places is None
+        else _texture_places(where, texture_places, len(positions)),
         warnings=_few([*warnings, *remarks]),
         source=source,
     )
@@ -221,7 +229,8 @@ def _parts(looks: Sequence[PartLook], part_of_face: NDArray[np.intp], sizes: Ind
     for look, name, start, stop in zip(looks, names, edges[:-1].tolist(), edges[1:].tolist(), strict=True):
         if start < stop:
             triangles = range(int(triangle_ends[start]), int(triangle_ends[stop]))
-            parts.append(Part(name, range(start, stop), triangles, look.colour, look.roughness))
+            faces = range(start, stop)
+            parts.append(Part(name, faces, triangles, look.colour, look.roughness, look.texture, look.cutout))
     return tuple(parts)
 
 
@@ -241,3 +250,12 @@ def _colours(where: str, colours: ArrayLike, vertices: int) -> Points:
         raise FacepinError(f"{where}: colours must be ({vertices}, 3) finite numbers, found {array.shape}")
     clipped: Points = frozen(np.clip(array, 0.0, 1.0), np.float32)
     return clipped
+
+
+def _texture_places(where: str, places: ArrayLike, vertices: int) -> Points:
+    array: Points = frozen(np.asarray(places), np.float32)
+    if array.shape != (vertices, 2) or not np.isfinite(array).all():
+        raise FacepinError(
+            f"{where}: texture places must be ({vertices}, 2) finite numbers, found {array.shape}"
+        )
+    return array

@@ -1,4 +1,4 @@
-"""Table 1 of the paper, measured: what a press and a drag frame cost, part by part."""
+"""Table 1 of the paper, measured: what a press, a drag frame and its parts, and pictures cost."""
 
 import json
 import os
@@ -25,6 +25,7 @@ from facepin.core.rig import Rig
 from facepin.core.topology import edge_count
 from facepin.figures.animator import PULL, Protocol, make_task
 from facepin.figures.compare import context_or_word, progress_line
+from facepin.figures.frame_times import FrameTime, frame_times, frames_as_json, frames_as_table
 from facepin.figures.stand_ins import TABLE_1, stand_in, stand_in_name
 from facepin.files import open_rig
 from facepin.options import BUILTIN
@@ -84,16 +85,21 @@ def run(options: Namespace) -> None:
     with progress_line() as tell, context_or_word() as ctx:
         tell("Opening")
         rigs = [stand_in(row) for row in TABLE_1]
-        rigs += [open_rig(path) for path in options.rigs or [resource("assets", BUILTIN)]]
-        rows = []
-        for rig in rigs:
+        own = [open_rig(path) for path in options.rigs or [resource("assets", BUILTIN)]]
+        rows, frames = [], list[FrameTime]()
+        for rig in rigs + own:
             tell(f"Measuring {rig.name}")
             rows.append(measure(rig, ctx))
+        if ctx is not None:
+            for rig in own:
+                tell(f"Drawing {rig.name}")
+                frames += frame_times(rig, ctx, SIZE)
         line = machine(ctx)
     if options.json:
-        sys.stdout.write(json.dumps(as_json(line, rows), indent=2) + "\n")
+        sys.stdout.write(json.dumps(as_json(line, rows, frames), indent=2) + "\n")
     else:
-        Console().print(*as_tables(line, rows), sep="\n")
+        pictures = [frames_as_table(frames, SIZE)] if frames else []
+        Console().print(*as_tables(line, rows), *pictures, sep="\n")
 
 
 def measure(
@@ -177,9 +183,13 @@ def machine(ctx: "moderngl.Context | None" = None) -> str:
     return f"{name}, {os.cpu_count()} cores, {renderer}, {versions}"
 
 
-def as_json(machine_line: str, rows: Sequence[BenchRow]) -> dict[str, Any]:
+def as_json(machine_line: str, rows: Sequence[BenchRow], frames: Sequence[FrameTime] = ()) -> dict[str, Any]:
     """Return what `facepin bench --json` prints.  Times in seconds; null for what needs OpenGL without it."""
-    return {"machine": machine_line, "rows": [asdict(row) for row in rows]}
+    return {
+        "machine": machine_line,
+        "rows": [asdict(row) for row in rows],
+        "frames": frames_as_json(frames),
+    }
 
 
 def as_tables(machine_line: str, rows: Sequence[BenchRow]) -> "list[Table]":

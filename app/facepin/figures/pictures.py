@@ -75,7 +75,9 @@ class Painter:
             samples=0,
             supersampling=SUPERSAMPLING,
             overlays=Overlays(heat=heat),
-            overlay=lambda canvas, framing: self._markers.draw_framed(canvas, framing, markers, scale=scale),
+            overlay=lambda canvas, framing, _: self._markers.draw_framed(
+                canvas, framing, markers, scale=scale
+            ),
         )
 
     def release(self) -> None:

@@ -36,6 +36,20 @@ def read_floats(document: GltfDocument, index: int, types: tuple[str, ...]) -> N
     return _normalised(_dense(document, entry), entry)
 
 
+def view_bytes(document: GltfDocument, index: int) -> memoryview:
+    """Return all bytes of bufferView `index`.
+
+    Raises
+    ------
+    FacepinError
+        If it does not lie within its buffer.
+    """
+    view = document.root.children("bufferViews")[index]
+    length = view.integer("byteLength", low=1)
+    everything = JsonObject({"bufferView": index}, view.where)
+    return memoryview(_view(document, everything, length, 1, np.dtype(np.uint8)).tobytes())
+
+
 def read_indices(document: GltfDocument, index: int, below: int) -> NDArray[np.uint32]:
     """Return a SCALAR accessor of unsigned integers, (count,) uint32, each less than `below`."""
     entry = _entry(document, index, ("SCALAR",))

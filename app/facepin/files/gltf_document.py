@@ -32,6 +32,7 @@ JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 class GltfDocument:
     """Parsed JSON and loaded buffers."""
 
+    path: Path
     root: JsonObject
     buffers: tuple[bytes | memoryview, ...]
     size: int
@@ -56,7 +57,7 @@ def read_document(path: Path) -> GltfDocument:
     root = parse_json(text, path.name)
     _check_extensions(root)
     buffers = [_buffer(entry, at, binary, path) for at, entry in enumerate(root.children("buffers"))]
-    return GltfDocument(root, tuple(buffers), len(content) + sum(len(buffer) for buffer in buffers))
+    return GltfDocument(path, root, tuple(buffers), len(content) + sum(len(buffer) for buffer in buffers))
 
 
 def _split_glb(content: bytes, name: str) -> tuple[bytes, memoryview | None]:
@@ -116,15 +117,22 @@ def _buffer(entry: JsonObject, at: int, binary: memoryview | None, path: Path) -
             raise FacepinError(f"{entry.where} has no uri; only the first buffer of a GLB may lack one")
         content: bytes | memoryview = binary
     else:
-        uri = entry.text("uri")
-        content = (
-            _decode_data_uri(uri, entry)
-            if uri[:5].lower() == "data:"
-            else _companion(uri, length, entry, path)
-        )
+        content = read_uri(entry, path, length)
     if len(content) < length:
         raise FacepinError(f"{entry.where}.byteLength is {length}, its data has {len(content)} bytes")
     return memoryview(content)[:length]
+
+
+def read_uri(entry: JsonObject, path: Path, most: int) -> bytes:
+    """Return what the `uri` of a buffer or an image holds, of a file at most the first `most` bytes.
+
+    Raises
+    ------
+    FacepinError
+        For an address that is not inside the folder of the model at `path`, or nothing there.
+    """
+    uri = entry.text("uri")
+    return _decode_data_uri(uri, entry) if uri[:5].lower() == "data:" else _companion(uri, most, entry, path)
 
 
 def _decode_data_uri(uri: str, entry: JsonObject) -> bytes:

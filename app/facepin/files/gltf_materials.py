@@ -23,7 +23,7 @@ def srgb_to_linear(encoded: ArrayLike) -> Points:
 
 def material_factor(document: GltfDocument, primitive: JsonObject) -> Points:
     """Return the linear base colour factor of a primitive's material, (3,), ones where there is none."""
-    shine = _shine(document, primitive)
+    shine = shine_of(document, primitive)
     if shine is None or "baseColorFactor" not in shine:
         return np.ones(3, np.float32)
     factor = np.clip(shine.numbers("baseColorFactor", 4)[:3], 0.0, 1.0)
@@ -36,7 +36,7 @@ def part_look(document: GltfDocument, primitive: JsonObject, mesh: str, at: int,
     A mesh of one primitive gives the part its name, else the material does.  A white factor says nothing
     where a texture or vertex colours carry the colour.
     """
-    shine = _shine(document, primitive)
+    shine = shine_of(document, primitive)
     name = mesh if count == 1 else f"{mesh} {at}"
     if shine is None:
         return PartLook(name)
@@ -46,10 +46,11 @@ def part_look(document: GltfDocument, primitive: JsonObject, mesh: str, at: int,
     carried = "baseColorTexture" in shine or "COLOR_0" in primitive.child("attributes")
     red, green, blue = (float(channel) for channel in linear_to_srgb(factor))
     colour = None if carried and (factor == 1.0).all() else (red, green, blue)
-    return PartLook(name, colour, shine.number("roughnessFactor", 1.0, low=0.0, high=1.0))
+    roughness = shine.number("roughnessFactor", 1.0, low=0.0, high=1.0)
+    return PartLook(name, colour, roughness)
 
 
-def _shine(document: GltfDocument, primitive: JsonObject) -> JsonObject | None:
+def shine_of(document: GltfDocument, primitive: JsonObject) -> JsonObject | None:
     """Return the `pbrMetallicRoughness` of a primitive's material, or None without a material."""
     index = primitive.optional_integer("material")
     return None if index is None else document.root.children("materials")[index].child("pbrMetallicRoughness")

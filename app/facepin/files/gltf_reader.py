@@ -1,7 +1,7 @@
 """Rigs from .glb, .gltf and .vrm files: morph targets become shapes, node transforms are baked in."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,8 @@ from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files.checked_json import JsonObject
 from facepin.files.gltf_accessors import accessor_count, read_delta, read_floats, read_indices
 from facepin.files.gltf_document import COMPRESSIONS, GltfDocument, read_document, refuse_compression
-from facepin.files.gltf_materials import linear_to_srgb, material_factor, part_look
+from facepin.files.gltf_images import Textures, cutout, texture_places
+from facepin.files.gltf_materials import linear_to_srgb, material_factor, part_look, shine_of
 from facepin.files.gltf_scene import Placed, placed_meshes
 from facepin.files.gltf_targets import ShapeKey, combined_targets, rest_weights, shape_keys
 from facepin.files.options import Progress, ReadOptions, no_progress
@@ -31,6 +32,8 @@ class Block:
     count: int
     linear: Floats | None
     """(3, 3) what the node's transform does to deltas, None for nothing."""
+    textured: bool = False
+    """Whether it is known where its vertices are in the texture of the primitive."""
 
 
 @dataclass
@@ -40,6 +43,8 @@ class Assembly:
     document: GltfDocument
     positions: list[Points] = field(default_factory=list)
     colours: list[Points | None] = field(default_factory=list)
+    places: list[Points | None] = field(default_factory=list)
+    """Where vertices are in their texture, if they have one."""
     triangles: list[NDArray[np.int64]] = field(default_factory=list)
     parts: list[PartLook] = field(default_factory=list)
     vertices: int = 0
@@ -52,6 +57,10 @@ class Assembly:
     rest: dict[ShapeKey, float] = field(default_factory=dict)
     """Weights that the file asks for; those of combinations count for nothing."""
     warnings: list[str] = field(default_factory=list)
+    textures: Textures = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.textures = Textures(self.document, self.warnings)
 
     def grow(self, vertices: int, corners: int, pieces: int) -> None:
         """Count what is about to be added; a small file that repeats itself into a huge rig is refused."""
@@ -112,6 +121,7 @@ def read_gltf(path: Path, options: ReadOptions) -> Rig:
         parts=gathered.parts,
         face_parts=np.repeat(np.arange(len(gathered.parts)), [len(run) for run in gathered.triangles]),
         colours=_colours(gathered),
+        texture_places=_places(gathered),
         rest_weights=np.array([gathered.rest[key] for key in places]),
         warnings=gathered.warnings,
         source=path,
@@ -145,9 +155,12 @@ def _add_mesh(gathered: Assembly, place: Placed) -> None:
         targets = [target.optional_integer("POSITION") for target in primitive.children("targets")]
         gathered.grow(0, 0, 1 + len(targets))
         position = attributes.integer("POSITION")
+        shine = shine_of(gathered.document, primitive)
+        textured = None if shine is None else gathered.textures.base_colour(shine)
         identity = (
             position,
             attributes.integer("COLOR_0", -1, low=-1),
+            -1 if textured is None else primitive.integer("material"),
             *(-1 if t is None else t for t in targets),
         )
         block = blocks.get(identity)
@@ -157,7 +170,11 @@ def _add_mesh(gathered: Assembly, place: Placed) -> None:
                 if target is not None:
                     gathered.shapes[key].append((block, target))
         gathered.triangles.append(_triangles(gathered, primitive, mode, block, place.matrix))
-        gathered.parts.append(part_look(gathered.document, primitive, _mesh_name(place), at, len(primitives)))
+        look = part_look(gathered.document, primitive, _mesh_name(place), at, len(primitives))
+        if block.textured and shine is not None:
+            texture = gathered.textures.base_colour(shine)
+            look = replace(look, texture=texture, cutout=cutout(gathered.document, primitive))
+        gathered.parts.append(look)
 
 
 def _add_vertices(gathered: Assembly, place: Placed, primitive: JsonObject, position: int) -> Block:
@@ -177,7 +194,10 @@ def _add_vertices(gathered: Assembly, place: Placed, primitive: JsonObject, posi
             points = (points.astype(np.float64) @ linear.T + place.matrix[:3, 3]).astype(np.float32)
     gathered.positions.append(points)
     gathered.colours.append(_vertex_colours(document, primitive, count))
-    return Block(gathered.vertices - count, count, None if np.array_equal(linear, np.eye(3)) else linear)
+    places = _vertex_places(gathered, primitive, count)
+    gathered.places.append(places)
+    turned = None if np.array_equal(linear, np.eye(3)) else linear
+    return Block(gathered.vertices - count, count, turned, places is not None)
 
 
 def _vertex_colours(document: GltfDocument, primitive: JsonObject, count: int) -> Points | None:
@@ -192,14 +212,39 @@ def _vertex_colours(document: GltfDocument, primitive: JsonObject, count: int) -
 
 
 def _colours(gathered: Assembly) -> Points | None:
-    """Return (n, 3) sRGB colours, or None where no primitive has any; those without get a light grey."""
+    """Return (n, 3) sRGB colours, or None where no primitive has any.
+
+    Those without get a light grey, or white where a texture brings the colour.
+    """
     if all(colours is None for colours in gathered.colours):
         return None
     filled = [
-        np.full((len(points), 3), 0.6, np.float32) if colours is None else colours
-        for points, colours in zip(gathered.positions, gathered.colours, strict=True)
+        np.full((len(points), 3), 0.6 if places is None else 1.0, np.float32) if colours is None else colours
+        for points, colours, places in zip(gathered.positions, gathered.colours, gathered.places, strict=True)
     ]
     return linear_to_srgb(np.concatenate(filled))
+
+
+def _vertex_places(gathered: Assembly, primitive: JsonObject, count: int) -> Points | None:
+    """Return (count, 2) places in the texture of a primitive, or None where there is none to use."""
+    shine = shine_of(gathered.document, primitive)
+    if shine is None or gathered.textures.base_colour(shine) is None:
+        return None
+    places = texture_places(gathered.document, primitive, shine, count)
+    if places is None:
+        gathered.warnings.append(f"{primitive.where}: a texture is left out: no coordinates in it")
+    return places
+
+
+def _places(gathered: Assembly) -> Points | None:
+    """Return (n, 2) places in textures, or None where there are no textures; those without get zeros."""
+    if all(places is None for places in gathered.places):
+        return None
+    filled = [
+        np.zeros((len(points), 2), np.float32) if places is None else places
+        for points, places in zip(gathered.positions, gathered.places, strict=True)
+    ]
+    return np.concatenate(filled)
 
 
 def _triangles(

@@ -8,11 +8,10 @@ from typing import Any, Literal
 
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Freedom
+from facepin.core.quality import LEVELS, Quality
 from facepin.files.atomic import atomic_write, make_folder, set_aside
 from facepin.files.checked_json import parse_json
 
-Quality = Literal["auto", "always", "off"]
-"""When edges are drawn smooth."""
 Theme = Literal["dark", "light"]
 Habit = Literal["facepin", "maya", "blender"]
 
@@ -44,10 +43,12 @@ class Preferences:
         return replace(self, recent=(entry, *(other for other in self.recent if other != entry))[:RECENT])
 
 
+_RENAMED = {"quality": {"always": "good", "off": "fast"}}
+"""What earlier versions called a value."""
 _CHECKS: dict[str, Callable[[Any], bool]] = {
     "recent": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
     "freedom": lambda value: value in ("space", "screen"),
-    "quality": lambda value: value in ("auto", "always", "off"),
+    "quality": lambda value: value in ("auto", *LEVELS),
     "ui_scale": lambda value: isinstance(value, int | float) and 0.5 <= value <= 4,
     "solver": lambda value: isinstance(value, str),
     "theme": lambda value: value in ("dark", "light"),
@@ -74,6 +75,9 @@ def read_preferences(path: Path) -> tuple[Preferences, str | None]:
         )
     except FacepinError as error:
         return Preferences(), f"the preferences can't be used: {error}; {set_aside(path)}"
+    for key, names in _RENAMED.items():
+        if isinstance(found.get(key), str):
+            found[key] = names.get(found[key], found[key])
     usable = {name: found[name] for name, check in _CHECKS.items() if name in found and check(found[name])}
     wrong = sorted(set(found) & {field.name for field in fields(Preferences)} - set(usable))
     if "recent" in usable:

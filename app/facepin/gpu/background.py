@@ -67,6 +67,7 @@ class Background:
             sx, sy, ox, oy = framing.ray_of_pixel
             kx, ky = 1 / (POOL[0] * framing.half_picture[0]), 1 / (POOL[1] * framing.half_picture[1])
             self._program["pool_of_pixel"] = (sx * kx, sy * ky, ox * kx, oy * ky - POOL_HEIGHT / POOL[1])
+            self._program["to_whole"] = framing.to_whole
             framing.use(canvas.framebuffer)
             self.ctx.enable_only(moderngl.NOTHING)
             self._triangle.render(moderngl.TRIANGLES, vertices=3)

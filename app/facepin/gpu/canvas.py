@@ -156,6 +156,27 @@ class Canvas:
         self._buffers = self._means = self._second = None
 
 
+class Canvases:
+    """One canvas for each number of samples, made when it is first asked for."""
+
+    def __init__(self, ctx: moderngl.Context, make_texture: TextureMaker | None = None) -> None:
+        self._ctx, self._make_texture = ctx, make_texture
+        self._made: dict[int, Canvas] = {}
+
+    def of(self, samples: int) -> Canvas:
+        """Return the one with that many samples per pixel, as far as the machine goes."""
+        samples = min(samples, int(self._ctx.max_samples))
+        if samples not in self._made:
+            self._made[samples] = Canvas(self._ctx, samples, self._make_texture)
+        return self._made[samples]
+
+    def release(self) -> None:
+        """Give the graphics memory back."""
+        for canvas in self._made.values():
+            canvas.release()
+        self._made.clear()
+
+
 @dataclass(frozen=True)
 class _Buffers:
     """What a canvas is made of at one size."""

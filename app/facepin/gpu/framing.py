@@ -25,6 +25,13 @@ class Framing:
     """Camera to clip space, (4, 4), where y points down."""
     half_picture: tuple[float, float]
     """Half the width and height of the whole picture at depth 1."""
+    corner: tuple[int, int] = (0, 0)
+    """Where the rectangle begins in the whole picture: not at its corner where it is a tile."""
+
+    @property
+    def to_whole(self) -> tuple[int, int]:
+        """What leads from a pixel of the framebuffer to that of the whole picture."""
+        return self.corner[0] - self.rectangle[0], self.corner[1] - self.rectangle[1]
 
     @property
     def ray_of_pixel(self) -> tuple[float, float, float, float]:
@@ -68,7 +75,7 @@ def tile(whole: Framing, x: int, y: int, width: int, height: int) -> Framing:
     crop[0, 0], crop[1, 1] = full_width / width, full_height / height
     crop[0, 3] = (full_width - 2 * x) / width - 1
     crop[1, 3] = (full_height - 2 * y) / height - 1
-    return replace(whole, rectangle=(0, 0, width, height), to_clip=crop @ whole.to_clip)
+    return replace(whole, rectangle=(0, 0, width, height), to_clip=crop @ whole.to_clip, corner=(x, y))
 
 
 def column_major(matrix: Floats) -> tuple[float, ...]:

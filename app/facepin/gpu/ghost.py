@@ -4,6 +4,7 @@ import moderngl
 
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major
+from facepin.gpu.lamps import LAMPS
 from facepin.gpu.materials import cull_hidden
 from facepin.gpu.programs import load_program
 from facepin.gpu.scene import PaneMesh, Scene
@@ -30,6 +31,7 @@ class GhostLook:
             program["depth_map"] = 0
             program["close"] = CLOSE * self._scene.rig.height
             program["deep"] = DEEP * self._scene.rig.height
+            program["key"] = tuple(LAMPS[0].tolist())
         return self._shells[samples]
 
     def release(self) -> None:
@@ -73,7 +75,7 @@ class GhostLayer:
     def _render(self, array: moderngl.VertexArray, depth_func: str, *flags: int) -> None:
         ctx = self._scene.ctx
         ctx.depth_func = depth_func
-        for run in self._scene.runs:
+        for run in self._scene.solid:
             cull_hidden(ctx, run)
             for flag in flags:
                 ctx.enable(flag)

@@ -6,7 +6,8 @@ import numpy as np
 from facepin.core.arrays import Points
 from facepin.core.heat import BEYOND, heat_colours, hex_colours
 from facepin.gpu.canvas import Canvas
-from facepin.gpu.framing import Framing, column_major
+from facepin.gpu.framing import Framing
+from facepin.gpu.lamps import sight
 from facepin.gpu.materials import cull_hidden, linear
 from facepin.gpu.programs import load_program
 from facepin.gpu.scene import PaneMesh, Scene
@@ -54,12 +55,11 @@ class HeatLayer:
     def draw(self, canvas: Canvas, framing: Framing) -> None:
         """Draw the face, with depth."""
         program = self._look.program
-        program["to_view"] = column_major(framing.to_view)
-        program["to_clip"] = column_major(framing.to_clip)
+        sight(framing).tell(program)
         self._look.colours.use(0)
         framing.use(canvas.framebuffer)
         self._scene.ctx.depth_func = "<"
-        for run in self._scene.runs:
+        for run in self._scene.solid:
             cull_hidden(self._scene.ctx, run)
             self._array.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
 

@@ -1,5 +1,6 @@
 """Pins as crisp markers over the face."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import IntEnum
 from math import log10
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats, Points
 from facepin.core.camera import Camera, Viewport
+from facepin.core.pose import Pose
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.programs import load_program
@@ -66,6 +68,36 @@ class Markers:
     """(p,) times the usual radius; None for all as usual."""
     locked: NDArray[np.bool_] | None = None
     """(p,) which are drawn as squares; None for none."""
+
+
+def pin_markers(
+    pose: Pose,
+    positions: Points,
+    *,
+    held: Collection[int] = (),
+    hovered: int | None = None,
+    selected: Collection[int] = (),
+) -> Markers:
+    """Return markers for the pins of a pose on the vertices (n, 3) as posed, without those that are hidden.
+
+    Pins that are held, hovered or selected are named by their vertices.
+    """
+
+    def state(vertex: int) -> MarkerState:
+        if vertex in held:
+            return MarkerState.HELD
+        if vertex in selected:
+            return MarkerState.SELECTED
+        return MarkerState.HOVERED if vertex == hovered else MarkerState.NORMAL
+
+    pins = [pin for pin in pose.pins if not pin.hidden]
+    return Markers(
+        positions[[pin.vertex for pin in pins]],
+        np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
+        np.array([state(pin.vertex) for pin in pins], np.uint8),
+        np.array([marker_size(pin.stiffness) for pin in pins]),
+        np.array([pin.locked for pin in pins], bool),
+    )
 
 
 class MarkerLayer:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
-from facepin.core.rig import Part, Rig
+from facepin.core.rig import Part, Rig, Texture
 from facepin.core.topology import DrawRun
 from facepin.gpu.eyes import paint_iris
 
@@ -20,14 +20,24 @@ WHITE: Colour = (1.0, 1.0, 1.0)
 
 @dataclass(frozen=True)
 class Material:
-    """Base colour (sRGB 0..1) and roughness (0 mirror .. 1 chalk)."""
+    """What a surface is made of."""
 
     colour: Colour
+    """Base colour, sRGB 0..1."""
     roughness: float
+    """0 mirror .. 1 chalk."""
+    scatter: Colour = (0.10, 0.08, 0.07)
+    """How far light spreads beneath the surface before it comes out, colour by colour, 0 not at all."""
+    reflects: float = 0.04
+    """Share of the light that is reflected straight ahead; most things that are not metal are alike."""
 
 
-CLAY = Material((0.58, 0.55, 0.53), Part.roughness)
+CLAY = Material((0.47, 0.45, 0.435), Part.roughness, (0.20, 0.17, 0.15))
 """What says nothing about itself."""
+
+FLESH: Colour = (0.36, 0.19, 0.125)
+"""Scatter of skin, and of what is softer still."""
+SKIN = replace(CLAY, scatter=FLESH, reflects=0.028)
 
 EYEBALL = Material((0.72, 0.70, 0.68), 0.08)
 """The white of an eye; its iris is painted on."""
@@ -39,9 +49,10 @@ BY_NAME: tuple[tuple[str, Material | None], ...] = (
     ("pupil", Material((0.02, 0.02, 0.02), 0.08)),
     ("sclera|eyeball|eyewhite", EYEBALL),
     ("teeth|tooth", Material((0.83, 0.81, 0.77), 0.25)),
-    ("gum|tongue|mouthsocket", Material((0.54, 0.36, 0.34), 0.35)),
+    ("gum|tongue|mouthsocket", Material((0.54, 0.36, 0.34), 0.35, FLESH)),
     ("hair|beard|moustache", Material((0.26, 0.20, 0.17), 0.45)),
     ("^(left|right)?eyes?(l|r|left|right)?$", EYEBALL),
+    ("skin|face|head|^ears?(l|r)?$", SKIN),
 )
 """Pattern in a part's name (small letters only) and its material; the first that fits counts.  None: clear
 shells in front of the eye and cards that only a texture turns into lashes; they are left out."""
@@ -57,8 +68,13 @@ class Run:
     tint: Colour
     """Linear colour that multiplies the vertex colours."""
     roughness: float
+    scatter: Colour
+    reflects: float
     hidden: Literal["back", "front"] | None
     """The side that is never seen, so that triangles showing it are left out."""
+    texture: Texture | None = None
+    cutout: float | None = None
+    """Alpha of the texture below which there is nothing."""
 
     @property
     def sides(self) -> tuple["Run", ...]:
@@ -88,11 +104,15 @@ def material(part: Part, coloured: bool) -> Material | None:
     # White is what a file says whose colours are in a texture, or that does not care.
     own = part.colour if part.colour != WHITE else None
     if named is None:
-        if own is None and not coloured:
+        if own is None and not coloured and part.texture is None:
             return None
         named = CLAY
-    colour = WHITE if coloured else own or named.colour
-    return Material(colour, named.roughness if part.roughness == Part.roughness else part.roughness)
+    painted = coloured or part.texture is not None
+    colour = WHITE if coloured else own or (WHITE if painted else named.colour)
+    roughness = named.roughness if part.roughness == Part.roughness else part.roughness
+    # A face without colours is clay through and through.
+    inside = CLAY if named is SKIN and own is None and not painted else named
+    return Material(colour, roughness, inside.scatter, inside.reflects)
 
 
 def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
@@ -104,7 +124,10 @@ def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
             continue
         r, g, b = linear(np.array(look.colour)).tolist()
         first, count = 3 * piece.triangles.start, 3 * len(piece.triangles)
-        run = Run(first, count, (r, g, b), look.roughness, piece.hidden)
+        part = rig.parts[piece.part]
+        card = (None, None) if rig.texture_places is None else (part.texture, part.cutout)
+        inside = (look.roughness, look.scatter, look.reflects)
+        run = Run(first, count, (r, g, b), *inside, piece.hidden, *card)
         before = runs[-1] if runs else None
         if before is not None and before.first + before.count == first:
             joined = replace(before, count=before.count + count)

@@ -19,13 +19,15 @@ from facepin.gpu.framing import column_major
 from facepin.gpu.materials import Run, cull_hidden
 from facepin.gpu.programs import load_program
 
-DIRECTIONS, OPENED_DIRECTIONS = 40, 20
+DIRECTIONS, OPENED_DIRECTIONS = 60, 16
 """Views of the neutral, and of the open mouth."""
 RESOLUTION = 256
 """Width and height of a depth map."""
 LIFT = 0.006
 """Height above the skin where light is measured, in radii of the face: more than a step of the depth map."""
-OPENED_SHARE = 0.6
+CONTRAST = 1.5
+"""By how much shadows of lamps are sharper than a plane through what is seen of the room would have them."""
+OPENED_SHARE = 0.8
 """How much of the light in an open mouth counts: teeth are seen, and closed lips keep their line."""
 
 
@@ -43,6 +45,9 @@ class Openness:
         """Prepare for what is drawn: `runs` of the triangles of `order`, which are in `indices`."""
         self.values: Points = np.ones(rig.vertex_count, np.float32)
         """(n,) share of the light that arrives; 1 until all is done."""
+        self.towards: Points = np.zeros((rig.vertex_count, 3), np.float32)
+        """(n, 3) along the surface: with a unit vector from the skin, the dot product is how much more light
+        than that arrives from there.  Chins, brows and noses so cast soft shadows wherever a lamp stands."""
         self._steps = self._bake(ctx, rig, order, runs, indices)
 
     def step(self, count: int) -> bool:
@@ -64,25 +69,52 @@ class Openness:
         sides = outer_sides(rig, order, runs)
         maps = _DepthMaps(ctx, rig.vertex_count, runs, indices)
         try:
-            arrived = []
+            baked = []
             for positions, count in ((rig.neutral, DIRECTIONS), (opened(rig), OPENED_DIRECTIONS)):
-                # In front of the surface and behind it.
-                light = np.zeros((2, rig.vertex_count), np.float32)
-                total = np.full((2, rig.vertex_count), 1e-6, np.float32)
+                # In front of the surface and behind it: shares, and their moments along the surface.
+                arrived = np.zeros((2, rig.vertex_count, 4), np.float32)
+                offered = np.zeros((2, rig.vertex_count, 4), np.float32)
+                offered[..., 0] = 1e-6
                 normals = vertex_normals(positions, rig.triangles)
                 maps.take(positions)
                 for step, direction in enumerate(directions(count)):
                     facing = normals @ direction.astype(np.float32)
                     lift = np.where(facing < 0, -LIFT, LIFT).astype(np.float32)
-                    weight = np.maximum([facing, -facing], 0)
-                    light += weight * maps.seen_from(direction, lift[:, None] * normals)
-                    total += weight
+                    seen = maps.seen_from(direction, lift[:, None] * normals)
+                    moments = np.ones((rig.vertex_count, 4), np.float32)
+                    moments[:, 1:] = direction - facing[:, None] * normals
+                    for side, weight in enumerate(np.maximum([facing, -facing], 0)):
+                        offered[side] += weight[:, None] * moments
+                        arrived[side] += (weight * seen)[:, None] * moments
                     yield step
-                front, back = light / total
-                arrived.append(np.where(sides > 0, front, np.where(sides < 0, back, np.maximum(front, back))))
+                baked.append(_chosen(sides, *_opening(arrived, offered)))
         finally:
             maps.release()
-        self.values = smoothed(np.maximum(arrived[0], OPENED_SHARE * np.sqrt(arrived[1])), rig)
+        (shut, shut_towards), (wide, wide_towards) = baked
+        # The open mouth counts for what the closed one hides: teeth are seen, and necks keep their shadow.
+        hidden = np.clip(1 - 2 * shut, 0, 1) * (OPENED_SHARE * np.sqrt(wide) > shut)
+        values = shut + hidden * (OPENED_SHARE * np.sqrt(wide) - shut)
+        towards = shut_towards + hidden[:, None] * (wide_towards - shut_towards)
+        self.values = smoothed(values.astype(np.float32), rig)
+        self.towards = smoothed(towards.astype(np.float32), rig, 5)
+
+
+def _opening(arrived: Points, offered: Points) -> tuple[Points, Points]:
+    """Return the share of light (2, n), and where along the surface it comes from, (2, n, 3)."""
+    total = offered[..., :1]
+    share: Points = arrived[..., :1] / total
+    # Light from everywhere, weighted by the cosine, has a mean square of 1/4 along any line in the surface.
+    towards: Points = np.float32(4 * CONTRAST) * (arrived[..., 1:] - share * offered[..., 1:]) / total
+    return share[..., 0], towards
+
+
+def _chosen(sides: NDArray[np.int8], share: Points, towards: Points) -> tuple[Points, Points]:
+    """Return what counts of the front and the back: the side that is lit, else the one that is more open."""
+    front = (sides > 0) | ((sides == 0) & (share[0] >= share[1]))
+    return (
+        np.where(front, share[0], share[1]),
+        np.where(front[:, None], towards[0], towards[1]),
+    )
 
 
 class _DepthMaps:
@@ -171,15 +203,17 @@ def vertex_normals(positions: Points, triangles: Indices) -> Points:
     return units
 
 
-def smoothed(values: Points, rig: Rig) -> Points:
-    """Mix values (n,) with the mean of their neighbours, twice: hides the steps of few directions."""
+def smoothed(values: Points, rig: Rig, rounds: int = 2) -> Points:
+    """Mix values (n,) or (n, m) with the mean of their neighbours: hides the steps of few directions."""
     corners = rig.triangles
     rows = np.concatenate([corners[:, [0, 1, 2]].ravel(), corners[:, [1, 2, 0]].ravel()])
     columns = np.concatenate([corners[:, [1, 2, 0]].ravel(), corners[:, [0, 1, 2]].ravel()])
     count = rig.vertex_count
     around = csr_array((np.ones(len(rows), np.float32), (rows, columns)), shape=(count, count))
     degree: Points = around.sum(axis=1)
-    for _ in range(2):
+    if values.ndim > 1:
+        degree = degree[:, None]
+    for _ in range(rounds):
         mean = np.where(degree > 0, (around @ values) / np.maximum(degree, 1), values)
         values = (0.5 * values + 0.5 * mean).astype(np.float32)
     return values

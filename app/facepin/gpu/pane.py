@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from facepin.core.arrays import Points
+from facepin.core.shading import Shading
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing
 from facepin.gpu.ghost import GhostLayer
@@ -16,10 +17,12 @@ class Overlays:
     """What a pane shows over its face, or instead of its colours."""
 
     heat: Points | None = None
-    """(n,) float32, how far each vertex moved, in shares of the top of the heat scale."""
+    """(n,) float32, how far each vertex moved, in shares of the top of the heat scale: seen as colours."""
     wireframe: bool = False
     ghost: PaneMesh | None = None
     """Another pose of the same scene."""
+    shading: Shading = "studio"
+    """What colours the face where `heat` does not."""
 
 
 BARE = Overlays()
@@ -55,7 +58,7 @@ def draw_pane(
         Pixels per point: 2 on a HiDPI screen.
     """
     if overlays.heat is None:
-        mesh.draw_framed(canvas, framing, fine=fine, part=part)
+        mesh.draw_framed(canvas, framing, fine=fine, shading=overlays.shading, part=part)
     else:
         heat = mesh.kept.get(lambda: HeatLayer(mesh), HeatLayer)
         mesh.restore()
@@ -65,4 +68,4 @@ def draw_pane(
         ghost.kept.get(lambda: GhostLayer(ghost), GhostLayer).draw(canvas, framing)
     if overlays.wireframe:
         wires = mesh.kept.get(lambda: WireLayer(mesh), WireLayer)
-        wires.draw(canvas, framing, scale, coloured=overlays.heat is None)
+        wires.draw(canvas, framing, scale, coloured=overlays.heat is None and overlays.shading == "studio")

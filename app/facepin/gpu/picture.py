@@ -12,15 +12,17 @@ from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
+from facepin.core.shading import Shading
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame, tile
+from facepin.gpu.markers import MarkerLayer, Markers
 from facepin.gpu.pane import BARE, Overlays, draw_pane
 from facepin.gpu.scene import PaneMesh, Scene
 
 Image = NDArray[np.uint8]
 
-Overlay = Callable[[Canvas, Framing], None]
-"""Draws something over a picture, or over a tile of it."""
+Overlay = Callable[[Canvas, Framing, float], None]
+"""Draws something over a picture, or over a tile of it, with so many pixels per point."""
 
 TILE = 2048
 """Largest width and height drawn at once: under every limit, and it bounds the memory of many samples."""
@@ -58,6 +60,9 @@ def render_picture(
     heat: Points | None = None,
     wireframe: bool = False,
     ghost: tuple[Points, Points] | None = None,
+    shading: Shading = "studio",
+    scale: float = 1.0,
+    markers: Markers | None = None,
 ) -> Image:
     """Draw one picture of a posed face.
 
@@ -79,6 +84,12 @@ def render_picture(
         Draw the edges of the faces.
     ghost : ((n, 3), (n, 3)) float32
         Positions and normals of another pose that shines through.
+    shading : Shading
+        What colours the face where `heat` does not.
+    scale : float
+        Pixels of the picture per point: 2 to look like a HiDPI screen.
+    markers : Markers
+        Pins to draw over the face.
 
     Returns
     -------
@@ -95,8 +106,13 @@ def render_picture(
         raise FacepinError(
             f"a picture of {width}x{height} times {supersampling} cannot be drawn (at least 1x1)"
         )
-    scene = Scene(ctx, rig)
+    scene, layer = Scene(ctx, rig), MarkerLayer(ctx) if markers is not None else None
     mesh, shell = PaneMesh(scene), PaneMesh(scene) if ghost is not None else None
+
+    def pins(canvas: Canvas, framing: Framing, scale: float) -> None:
+        if layer is not None and markers is not None:
+            layer.draw_framed(canvas, framing, markers, scale=scale)
+
     try:
         mesh.upload(positions, normals)
         if shell is not None and ghost is not None:
@@ -110,10 +126,12 @@ def render_picture(
             transparent=transparent,
             samples=samples,
             supersampling=supersampling,
-            overlays=Overlays(heat, wireframe, shell),
+            overlays=Overlays(heat, wireframe, shell, shading),
+            scale=scale,
+            overlay=pins,
         )
     finally:
-        for item in (mesh, shell, scene):
+        for item in (mesh, shell, layer, scene):
             if item is not None:
                 item.release()
 
@@ -159,7 +177,7 @@ def draw_picture(
                     mesh.scene.background.draw_framed(canvas, [framing])
                 draw_pane(canvas, framing, mesh, overlays, fine=True, scale=scale * factor)
                 if overlay is not None:
-                    overlay(canvas, framing)
+                    overlay(canvas, framing, scale * factor)
                 picture[y : y + h, x : x + w] = _averaged(canvas.read(), factor)
     finally:
         canvas.release()

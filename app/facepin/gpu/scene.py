@@ -9,18 +9,16 @@ import numpy as np
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.rig import Rig
+from facepin.core.shading import Shading
 from facepin.core.topology import draw_order
 from facepin.gpu.background import Background
 from facepin.gpu.canvas import Canvas
-from facepin.gpu.framing import Framing, column_major, frame
+from facepin.gpu.framing import Framing, frame
 from facepin.gpu.kept import Kept
 from facepin.gpu.materials import cull_hidden, material_runs, vertex_albedo
 from facepin.gpu.motion import Motion
 from facepin.gpu.openness import Openness
-from facepin.gpu.programs import load_program
-
-GLOSSY = 0.3
-"""Roughness below which a highlight is too small to be computed at vertices."""
+from facepin.gpu.shaders import ProgramName, Shaders
 
 Part = Literal["all", "moving", "still"]
 
@@ -35,15 +33,19 @@ class Scene:
         self.triangles = order.triangles
         """(t, 3) int32, those of the rig in the order of `indices`."""
         self.runs = material_runs(rig, order.runs)
+        self.solid = tuple(run for run in self.runs if run.cutout is None)
+        """Those that are not cut out of cards by a texture."""
         self.indices = ctx.buffer(order.triangles)
         self._albedo_values = vertex_albedo(rig)
         self.albedo = ctx.buffer(self._albedo_values)
-        self.fine_program = load_program(ctx, "mesh")
-        self.fast_program = load_program(ctx, "mesh_fast")
+        self.towards = ctx.buffer(np.zeros((rig.vertex_count, 4), np.float16))
+        places = rig.texture_places
+        self.places = None if places is None else ctx.buffer(np.ascontiguousarray(places))
+        self.shaders = Shaders(ctx)
         self.background = Background(ctx)
         self.kept = Kept()
         """What overlays share."""
-        self._openness: Openness | None = Openness(ctx, rig, order, self.runs, self.indices)
+        self._openness: Openness | None = Openness(ctx, rig, order, self.solid, self.indices)
 
     @property
     def refined(self) -> bool:
@@ -65,6 +67,7 @@ class Scene:
             return False
         self._albedo_values[:, 3] = self._openness.values
         self.albedo.write(self._albedo_values)
+        self.towards.write(np.pad(self._openness.towards, ((0, 0), (0, 1))).astype(np.float16))
         self._openness = None
         return True
 
@@ -72,9 +75,10 @@ class Scene:
         """Give the graphics memory back."""
         if self._openness is not None:
             self._openness.release()
-        shared = (self.indices, self.albedo, self.fine_program, self.fast_program, self.background)
-        for item in (*shared, self.kept):
-            item.release()
+        buffers = (self.indices, self.albedo, self.towards, self.places)
+        for item in (*buffers, self.shaders, self.background, self.kept):
+            if item is not None:
+                item.release()
 
 
 class PaneMesh:
@@ -156,7 +160,15 @@ class PaneMesh:
             self.positions.write(np.ascontiguousarray(positions, np.float32))
             self._there = positions
 
-    def draw(self, canvas: Canvas, viewport: Viewport, camera: Camera, *, fine: bool = True) -> None:
+    def draw(
+        self,
+        canvas: Canvas,
+        viewport: Viewport,
+        camera: Camera,
+        *,
+        fine: bool = True,
+        shading: Shading = "studio",
+    ) -> None:
         """Draw the face into a rectangle of a canvas.
 
         A picture begins with `Background.draw` (or `Canvas.clear`), for all panes at once.
@@ -172,11 +184,21 @@ class PaneMesh:
         fine : bool
             Compute light at every pixel; otherwise at the vertices of what is not glossy, which keeps a drag
             smooth on a machine without a graphics card.
+        shading : Shading
+            Anything but "heat", which `HeatLayer` draws.
         """
         framing = frame(camera, viewport)
-        self.draw_framed(canvas, framing, fine=fine)
+        self.draw_framed(canvas, framing, fine=fine, shading=shading)
 
-    def draw_framed(self, canvas: Canvas, framing: Framing, *, fine: bool, part: Part = "all") -> None:
+    def draw_framed(
+        self,
+        canvas: Canvas,
+        framing: Framing,
+        *,
+        fine: bool,
+        shading: Shading = "studio",
+        part: Part = "all",
+    ) -> None:
         """Draw like `draw`, for a framing that may be a tile of a larger picture.
 
         Parameters
@@ -188,27 +210,24 @@ class PaneMesh:
         if part == "all":
             self.restore()
         framing.use(canvas.framebuffer)
-        for program in (scene.fine_program, scene.fast_program):
-            program["to_view"] = column_major(framing.to_view)
-            program["to_clip"] = column_major(framing.to_clip)
-            program["sky"] = tuple(framing.to_view[:3, 1])
-        scene.fine_program["ray_of_pixel"] = framing.ray_of_pixel
+        shaders = scene.shaders
+        shaders.see(framing)
         ctx.depth_func = "<"
         runs, arrays = scene.runs, self._arrays
         if part != "all" and self.motion.still and self._sorted is not None:
             runs = self.motion.moving if part == "moving" else self.motion.still
             _, arrays = self._sorted
         for run in runs:
-            fast = run.roughness >= GLOSSY and not fine
-            program, mesh = (scene.fast_program, arrays.fast) if fast else (scene.fine_program, arrays.fine)
-            program["tint"] = run.tint
-            program["roughness"] = run.roughness
+            if shading == "normals" and run.cutout is not None:
+                continue
+            name = shaders.use(run, shading, fine=fine)
+            array = arrays.of(name)
             # At a vertex it is not known which side is seen, so of sheets each side is drawn by itself.
-            for piece in run.sides if fast else (run,):
-                if fast:
-                    program["facing"] = 1.0 if piece.hidden == "back" else -1.0
+            for piece in run.sides if name == "fast" else (run,):
+                if name == "fast":
+                    shaders.program(name)["facing"] = 1.0 if piece.hidden == "back" else -1.0
                 cull_hidden(ctx, piece)
-                mesh.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
+                array.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
 
     def release(self) -> None:
         """Give the graphics memory back."""
@@ -221,19 +240,30 @@ class PaneMesh:
 
 
 class _Arrays:
-    """Vertices with an order to draw them in, for both programs."""
+    """Vertices with an order to draw them in, for the programs that need them."""
 
     def __init__(self, mesh: PaneMesh, indices: moderngl.Buffer) -> None:
         scene = mesh.scene
-        content = [
+        self._shaders, self._indices = scene.shaders, indices
+        self._content = [
             (mesh.positions, "3f", "position"),
             (mesh.normals, "3f", "normal"),
             (scene.albedo, "4f2", "albedo"),
+            (scene.towards, "3f2 1x2", "towards"),
         ]
-        self.fine = scene.ctx.vertex_array(scene.fine_program, content, indices)
-        self.fast = scene.ctx.vertex_array(scene.fast_program, content, indices)
+        if scene.places is not None:
+            self._content.append((scene.places, "2f", "place"))
+        self._made: dict[ProgramName, moderngl.VertexArray] = {}
+
+    def of(self, name: ProgramName) -> moderngl.VertexArray:
+        """Return the one for a program."""
+        if name not in self._made:
+            program = self._shaders.program(name)
+            content = [entry for entry in self._content if entry[2] in program]
+            self._made[name] = program.ctx.vertex_array(program, content, self._indices)
+        return self._made[name]
 
     def release(self) -> None:
         """Give the graphics memory back."""
-        self.fine.release()
-        self.fast.release()
+        for array in self._made.values():
+            array.release()

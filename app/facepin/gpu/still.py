@@ -7,6 +7,7 @@ with a copy of wall and still triangles, with their depth, and only what moves i
 from collections.abc import Sequence
 
 from facepin.core.camera import Camera, Viewport
+from facepin.core.shading import Shading
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
@@ -25,7 +26,7 @@ class StillLayer:
         self,
         canvas: Canvas,
         sights: Sequence[tuple[Viewport, Camera]],
-        meshes: Sequence[PaneMesh | None],
+        shown: Sequence[tuple[PaneMesh, Shading] | None],
         beside: Colour = (0.0, 0.0, 0.0, 0.0),
     ) -> None:
         """Erase a canvas and draw the wall and what is still of every face, as `fine=False` draws it.
@@ -38,21 +39,21 @@ class StillLayer:
             Has a size, and no samples.
         sights : sequence of (viewport, camera)
             The panes.
-        meshes : sequence of PaneMesh or None
+        shown : sequence of (PaneMesh, Shading) or None
             Their faces; None where something else is drawn instead.
         beside : (r, g, b, a)
             Colour of what is outside of the panes.
         """
         framings = [frame(camera, viewport) for viewport, camera in sights]
-        faces = [(mesh, framing) for mesh, framing in zip(meshes, framings, strict=True) if mesh is not None]
-        sight = (canvas.size, tuple(sights), tuple(meshes), beside, self._scene.refined)
+        faces = [(*face, framing) for face, framing in zip(shown, framings, strict=True) if face is not None]
+        sight = (canvas.size, tuple(sights), tuple(shown), beside, self._scene.refined)
         if sight != self._sight:
             self.forget()
-            for mesh, framing in faces:
+            for mesh, _, framing in faces:
                 mesh.look(framing)
             self._sight = sight
-        sorted_anew = [mesh.follow() for mesh, _ in faces]
-        if not any(mesh.motion.still for mesh, _ in faces):
+        sorted_anew = [mesh.follow() for mesh, _, _ in faces]
+        if not any(mesh.motion.still for mesh, _, _ in faces):
             self._scene.background.draw(canvas, sights, beside)
             return
         if self._kept is None:
@@ -60,8 +61,8 @@ class StillLayer:
         if any(sorted_anew):
             self._kept.resize(*canvas.size)
             self._scene.background.draw(self._kept, sights, beside)
-            for mesh, framing in faces:
-                mesh.draw_framed(self._kept, framing, fine=False, part="still")
+            for mesh, shading, framing in faces:
+                mesh.draw_framed(self._kept, framing, fine=False, shading=shading, part="still")
         self._kept.copy_to(canvas)
 
     def forget(self) -> None:

@@ -73,8 +73,11 @@ def menu_bar(
         for command in (Command.SAVE, Command.SAVE_AS):
             asked = _item(view, command, session is not None) or asked
         imgui.separator()
-        for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT, Command.SCREENSHOT):
+        for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT):
             asked = _item(view, command) or asked
+        imgui.separator()
+        for command in (Command.SCREENSHOT, Command.SCREENSHOT_PINS):
+            asked = _item(view, command, session is not None) or asked
         imgui.separator()
         asked = _item(view, Command.QUIT) or asked
         imgui.end_menu()

@@ -1,7 +1,8 @@
-"""Menu items of what a pane shows over its face, and how a menu is left."""
+"""Menu items of how a pane shows its face, and how a menu is left."""
 
 from imgui_bundle import imgui
 
+from facepin.core.shading import MODES
 from facepin.panels.requests import Command, key_of
 from facepin.panels.view import Ghost, PaneView
 from facepin.session.navigation import Habit
@@ -14,9 +15,16 @@ GHOSTS: dict[Ghost, str] = {
 
 
 def overlay_items(view: PaneView, habit: Habit, *, has_reference: bool) -> None:
-    """Draw a menu item for each overlay of a pane, changed in place; `habit` has the keys."""
-    if imgui.menu_item_simple(Command.HEAT.title, key_of(Command.HEAT, habit), selected=view.heat):
-        view.heat = not view.heat
+    """Draw the shading of a pane and a menu item for each overlay, changed in place; `habit` has the keys."""
+    if imgui.begin_menu("Shading"):
+        for name, mode in MODES.items():
+            shortcut = key_of(Command.HEAT, habit) if name == "heat" else None
+            if imgui.menu_item_simple(mode.title, shortcut, selected=view.mode == name):
+                view.mode = name
+        imgui.separator()
+        if imgui.menu_item_simple(Command.SHADING.title, key_of(Command.SHADING, habit)):
+            view.next_mode()
+        imgui.end_menu()
     if imgui.menu_item_simple(
         Command.WIREFRAME.title, key_of(Command.WIREFRAME, habit), selected=view.wireframe
     ):

@@ -62,7 +62,13 @@ class Command(Enum):
         "File",
         "Writes the rig with its pose as .glb, or the posed mesh as .obj, .ply or .stl.",
     )
-    SCREENSHOT = "Save picture", ("F12",), "File", "Saves what the selected pane shows as a PNG."
+    SCREENSHOT = "Save picture", ("F12",), "File", "Saves the face of the selected pane as a PNG."
+    SCREENSHOT_PINS = (
+        "Save picture with pins",
+        ("Shift+F12",),
+        "File",
+        "Saves what the selected pane shows, with its pins and their goals.",
+    )
     QUIT = "Quit", ("Ctrl+Q",), "File", "Leaves; what was not saved is kept and offered at the next start."
     UNDO = "Undo", ("Ctrl+Z",), "Edit", "Takes the last change back; a whole drag is one step."
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Edit", "Brings back what was undone."
@@ -168,6 +174,12 @@ class Command(Enum):
     )
     TURN_UP = "Turn up", ("Numpad 8",), "View", "Looks from a step higher."
     TURN_DOWN = "Turn down", ("Numpad 2",), "View", "Looks from a step lower."
+    SHADING = (
+        "Next shading",
+        ("S",),
+        "View",
+        "Goes on from studio to clay, wireframe over clay, normals, heat map.",
+    )
     HEAT = (
         "Heat map of the move",
         ("H",),
@@ -226,6 +238,9 @@ class Command(Enum):
         self.help = help
         """One sentence that teaches what it does."""
 
+
+PICTURES = (Command.SCREENSHOT, Command.SCREENSHOT_PINS)
+"""Those that change nothing."""
 
 VIEW_COMMANDS: dict[Command, View] = {
     Command.FRONT: "front",

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from facepin.core.pose import Freedom
+from facepin.core.quality import Quality
+from facepin.core.shading import MODES, Shading
 from facepin.panels.guide import Guide
 from facepin.panels.library_view import LibraryView
 from facepin.panels.pins import FREEDOMS, PinsView
@@ -14,19 +16,16 @@ from facepin.panels.weights import WeightsView
 from facepin.session.navigation import PRESETS, Habit
 from facepin.session.solving import SolverChoice
 
-Quality = Literal["auto", "always", "off"]
-
-
 Ghost = Literal["none", "neutral", "reference"]
 
 
 @dataclass
 class PaneView:
-    """What a pane shows over its face."""
+    """How a pane shows its face: one shading, and over it what else is wanted."""
 
-    heat: bool = False
-    """How far each vertex moved since the drag began, as colours."""
+    shading: Shading = "studio"
     wireframe: bool = False
+    """Edges, over any shading."""
     ghost: Ghost = "none"
     """Another pose that shines through."""
 
@@ -35,15 +34,46 @@ class PaneView:
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 
+    before_heat: Shading = "studio"
+    """What the heat map gives way to."""
+
+    @property
+    def mode(self) -> str | None:
+        """Name of the mode that this is, if any; edges over most shadings have none."""
+        shown = (self.shading, self.wireframe)
+        return next((name for name, mode in MODES.items() if (mode.shading, mode.wireframe) == shown), None)
+
+    @mode.setter
+    def mode(self, name: str) -> None:
+        self.shading, self.wireframe = MODES[name].shading, MODES[name].wireframe
+
+    def next_mode(self) -> None:
+        """Go on to the next mode; from edges over something, to the one after that."""
+        names = list(MODES)
+        here = self.mode or next(name for name in names if MODES[name].shading == self.shading)
+        self.mode = names[(names.index(here) + 1) % len(names)]
+
+    def toggle_heat(self) -> None:
+        """Show the heat map, or what was there before it."""
+        if self.shading == "heat":
+            self.shading = self.before_heat
+        else:
+            self.before_heat, self.shading = self.shading, "heat"
+
+    @property
+    def measured(self) -> bool:
+        """Whether colours are a measure: of the move, or of the reach of the solver's radius."""
+        return self.shading == "heat" or self.reach
+
     def next_ghost(self, *, has_reference: bool) -> None:
         """Go on to the next ghost there is."""
         ghosts: tuple[Ghost, ...] = ("none", "neutral", "reference") if has_reference else ("none", "neutral")
         self.ghost = ghosts[(ghosts.index(self.ghost) + 1) % len(ghosts)] if self.ghost in ghosts else "none"
 
     @property
-    def key(self) -> tuple[bool, bool, Ghost, bool]:
+    def key(self) -> tuple[Shading, bool, Ghost, bool]:
         """Equal keys look the same."""
-        return self.heat, self.wireframe, self.ghost, self.reach
+        return self.shading, self.wireframe, self.ghost, self.reach
 
 
 @dataclass
@@ -129,9 +159,14 @@ CHOICES: dict[str, Choice] = {
         "Size of text and panels, times what the screen asks for.",
     ),
     "quality": Choice(
-        "Smooth edges",
-        {"auto": "When the picture rests, or always with a GPU", "always": "Always", "off": "Never"},
-        "Four samples per pixel: costs time where there is no GPU.",
+        "Quality",
+        {
+            "auto": "Automatic (fast in motion without a GPU)",
+            "fast": "Fast (light at vertices)",
+            "good": "Good (light at pixels, edges 4x smooth)",
+            "best": "Best (light at pixels, edges 8x smooth)",
+        },
+        "How smooth light and edges of the picture are; better costs time where there is no GPU.",
     ),
     "freedom": Choice(
         "New pins",

@@ -1,0 +1,69 @@
+"""The levels of quality: which one is drawn when, and that what earlier versions remembered counts."""
+
+import json
+from pathlib import Path
+
+import moderngl
+import pytest
+
+from driver import running
+from facepin.core.quality import LEVELS, Level, level
+from facepin.files.preferences import read_preferences
+from facepin.gpu.canvas import Canvas, Canvases
+from facepin.panels.requests import Choose
+from facepin.stage import Stage
+
+
+def test_automatic_is_fast_only_in_motion_without_a_graphics_card() -> None:
+    for software in (True, False):
+        for moving in (True, False):
+            found = level("auto", software=software, moving=moving)
+            assert found == LEVELS["fast" if software and moving else "good"]
+            assert level("best", software=software, moving=moving) == Level(8, fine=True)
+            assert level("fast", software=software, moving=moving) == Level(0, fine=False)
+
+
+def test_there_is_one_canvas_for_each_number_of_samples(gl: moderngl.Context) -> None:
+    canvases = Canvases(gl)
+    assert canvases.of(0).samples == 0
+    assert canvases.of(4) is canvases.of(4)
+    assert canvases.of(10_000) is canvases.of(int(gl.max_samples)), "as far as the machine goes"
+    canvases.release()
+
+
+def test_pictures_are_drawn_with_the_level_that_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[tuple[int, bool]] = []
+    plain = Stage.draw
+
+    def noted(stage: Stage, canvas: Canvas, *rest: object, fine: bool, **more: object) -> None:
+        drawn.append((canvas.samples, fine))
+        plain(stage, canvas, *rest, fine=fine, **more)
+
+    monkeypatch.setattr(Stage, "draw", noted)
+    rough, smooth = (0, False), (4, True)
+    with running(size=(400, 300)) as app:
+        for quality, at_rest, in_motion in (
+            ("auto", smooth, rough),
+            ("fast", rough, rough),
+            ("good", smooth, smooth),
+        ):
+            app.ask(Choose("quality", quality))
+            x, y = app.pixel_of(2000)
+            app.press(x, y)
+            app.move(x, y + 6)
+            assert drawn[-1] == in_motion
+            app.release(x, y + 6)
+            app.step(frames=4)
+            assert drawn[-1] == at_rest
+
+
+@pytest.mark.parametrize(
+    ("then", "now"), [("always", "good"), ("off", "fast"), ("auto", "auto"), ("best", "best")]
+)
+def test_what_earlier_versions_remembered_counts(tmp_path: Path, then: str, now: str) -> None:
+    file = tmp_path / "preferences.json"
+    file.write_text(json.dumps({"quality": then}))
+    found, complaint = read_preferences(file)
+    assert (found.quality, complaint) == (now, None)
+    file.write_text(json.dumps({"quality": ["always"]}))
+    assert "quality" in str(read_preferences(file)[1])

@@ -38,6 +38,7 @@ def test_what_is_meant_comes_first(word: str, first: str) -> None:
 def test_letters_out_of_order_or_missing_are_not_found() -> None:
     assert match("ew", "Wireframe") is None
     assert match("wirez", "Wireframe") is None
+    assert match("png", "Add the poses of another rig…") is None  # they are there, but nobody means that
     assert match("", "Wireframe") is None
     assert match("a", "") is None
 

@@ -22,3 +22,13 @@ def test_the_reach_of_a_radius_falls_off_along_the_skin() -> None:
     np.testing.assert_allclose(reach[beside], 0.5, atol=1e-5)
     off = Pane(choose("transpose"), Pose(np.zeros(4), (pin,)), np.zeros(4))
     assert not gauge.reach(off).any()
+
+
+def test_what_a_shape_moves_is_shown_in_shares_of_its_largest_move() -> None:
+    rig = sheet()
+    gauge = HeatGauge(rig)
+    for j in range(rig.shape_count):
+        shown = gauge.shape(j)
+        assert gauge.shape(j) is shown
+        moved = np.linalg.norm(rig.evaluate(np.eye(rig.shape_count)[j]) - rig.neutral, axis=1)
+        np.testing.assert_allclose(shown, moved / moved.max(), atol=1e-5)

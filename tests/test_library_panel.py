@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -306,6 +307,20 @@ def test_two_selected_poses_are_compared(rig: Path, tmp_path: Path) -> None:
         assert app.session.work is before
         click(app, "Smile", KEY.mod_ctrl)
         assert app.desk.view.library.selected == ("Blink",)
+
+
+def test_locked_shapes_stay_and_are_told(rig: Path, tmp_path: Path) -> None:
+    with library(rig, tmp_path) as app:
+        locked = np.arange(8) == 0
+        app.session.set_control("Lock shape0", replace(app.session.control, locked=locked))
+        app.ask(ApplyPose("Frown"))
+        assert app.desk.message == ""
+        app.ask(ApplyPose("Smile"))
+        assert not app.session.pose.weights.any()
+        assert "shape0 is locked" in app.desk.message
+        app.ask(ComparePoses("Smile", "Blink"))
+        np.testing.assert_array_equal(app.session.pose.weights, weights(app, 2))
+        assert "locked" not in app.desk.message
 
 
 def test_a_pose_of_other_shapes_says_what_does_not_match(rig: Path, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from imgui_bundle import imgui
 
@@ -9,9 +10,11 @@ from driver import App, running
 from facepin.actions import carry_out
 from facepin.core.events import KeyPressed, Modifiers, PointerMoved
 from facepin.panels.availability import why_not
+from facepin.panels.library_requests import SavePose
 from facepin.panels.palette import entries, ranked
 from facepin.panels.requests import Choose, Command, Request
 from facepin.panels.view import CHOICES, View
+from facepin.session.edit import Edit
 
 CALL = KeyPressed("p", Modifiers(control=True))
 
@@ -138,6 +141,32 @@ def test_everything_is_in_it_and_can_be_carried_out(tmp_path: Path) -> None:
 )
 def test_what_is_meant_comes_first(query: str, first: str) -> None:
     assert ranked(entries(View(), None, []), query, ())[0][0].title == first
+
+
+def test_a_pose_of_the_library_is_found_by_name_and_tag_and_put_on_the_face(tmp_path: Path) -> None:
+    with running(settings_folder=tmp_path) as app:
+        for title, jaw in (("Shout", 0.8), ("Whisper", 0.1)):
+            weights = np.zeros(app.session.rig.shape_count)
+            weights[app.session.rig.shape_names.index("jawOpen")] = jaw
+            app.desk.apply(Edit("Set jawOpen", True, weights=weights))
+            app.ask(SavePose(title, ("mouth",)))
+        app.desk.apply(Edit("Reset all weights", True, weights=np.zeros(app.session.rig.shape_count)))
+        app.step(PointerMoved(5, 5), frames=3)
+        found = entries(app.desk.view, app.session, [], app.desk.library.poses)
+        assert {entry.title for entry, _ in ranked(found, "pose mouth", ())} >= {
+            "Pose: Shout",
+            "Pose: Whisper",
+        }
+        called(app, "shout")
+        key(app, imgui.Key.enter)
+        assert app.session.pose.weights.max() == pytest.approx(0.8)
+
+
+def test_a_shading_is_chosen_by_its_name() -> None:
+    with running() as app:
+        called(app, "shading clay")
+        key(app, imgui.Key.enter)
+        assert app.desk.view.panes[0].mode == "clay"
 
 
 def test_nothing_fits_nonsense() -> None:

@@ -1,6 +1,7 @@
 """Series of pictures: from the menu beside the work, and as commands."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -83,6 +84,17 @@ def test_a_filmstrip_shows_the_steps_that_changed_the_pose() -> None:
     session.apply(Edit("Step of a gesture", False, weights=weights(3)))
     assert [still.label for still in filmstrip(session)] == ["Start", "Set one", "Set two"]
     assert filmstrip(session)[-1].pose.weights[1] == 0.9
+
+
+def test_a_filmstrip_shows_muted_shapes_as_they_were_shown() -> None:
+    session = Session(RIG, [choose("transpose")])
+    session.apply(Edit("Set", True, weights=frozen([0.5, 0.6, 0.0, 0.0], np.float64)))
+    muted = np.array([True, False, False, False])
+    session.set_control("Mute shape0", replace(session.control, muted=muted))
+    session.set_control("Lock shape1", replace(session.control, locked=~muted))
+    stills = filmstrip(session)
+    assert [still.label for still in stills] == ["Start", "Set", "Mute shape0"]
+    assert stills[-1].pose.weights.tolist() == [0.0, 0.6, 0.0, 0.0]
 
 
 def test_a_filmstrip_keeps_the_pixels_of_the_viewport(app: App) -> None:

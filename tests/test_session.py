@@ -50,6 +50,20 @@ def test_a_gesture_is_one_undo_step_and_undo_returns_the_same_pose() -> None:
     assert session.pose is after
 
 
+def test_a_gesture_that_another_one_interrupts_is_a_step_of_its_own() -> None:
+    session = Session(RIG, [choose("transpose")])
+    before = session.work
+    session.apply(Edit("Set shape1", False, weights=np.array([0, 0.4, 0, 0])))
+    session.settle()
+    assert not session.in_gesture and session.undo_label == "Set shape1"
+    set_by_hand = session.work
+    session.settle()
+    assert session.work is set_by_hand, "with nothing in hand nothing happens"
+    session.apply(Edit("Place pin", True, (held(40, (0, 0, 0)),)))
+    assert session.undo() and session.work is set_by_hand
+    assert session.undo() and session.work is before
+
+
 def test_cancel_restores_exactly() -> None:
     session = Session(RIG, [choose("transpose")])
     before = session.pose

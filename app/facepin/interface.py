@@ -1,6 +1,7 @@
 """All panels of one frame: what they show of the desk, and what the user wants of it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -8,6 +9,7 @@ from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
+from facepin.core.shape_motion import movers
 from facepin.desk import Desk
 from facepin.files.drafts import Leftover
 from facepin.panels import layout
@@ -30,9 +32,11 @@ from facepin.panels.requests import CancelJob, CancelLoading, Command, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import progress_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours
-from facepin.panels.weights import weights_panel
+from facepin.panels.vertex_card import vertex_card
+from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
 from facepin.session.filmstrip import filmstrip
+from facepin.session.mirroring import linked_weights
 from facepin.session.session import Session
 from facepin.stage import Stage
 
@@ -83,7 +87,8 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         desk.dialog.draw()
     if session is not None:
         asked.append(_pin_popup(desk, session.pose))
-    asked.append(palette(view, session, recent, scale))
+    poses = desk.library.poses if desk.library is not None else ()
+    asked.append(palette(view, session, recent, poses, scale))
     if view.keyboard:
         view.keyboard = keyboard_map(view.habit, view.theme, scale)
     if view.about:
@@ -102,7 +107,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         imgui units per pixel of a 1x screen.
     """
     session, theme = desk.session, desk.view.theme
-    request = edit = None
+    request = wish = None
     layout.without_background(layout.SOLVER)
     if imgui.begin(layout.SOLVER)[0] and session is not None:
         request = solver_panel(
@@ -123,9 +128,10 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         if desk.view.pins.hovered is not None:
             desk.tool.hovered = desk.view.pins.hovered
     imgui.end()
+    desk.view.weights.explained = None
     layout.without_background(layout.WEIGHTS)
     if imgui.begin(layout.WEIGHTS)[0] and session is not None:
-        edit = weights_panel(
+        wish = weights_panel(
             session.rig,
             session.control,
             session.panes,
@@ -140,9 +146,13 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     blend, more = _library(desk, scale)
     if is_first:  # else the tab that is made last lies on top
         imgui.set_window_focus(layout.WEIGHTS)
-    edit = edit or blend
-    if edit is not None:
-        desk.apply(edit)
+    for at, pane in enumerate(desk.view.panes):
+        pane.shape = desk.view.weights.explained if session is not None and at == session.active else None
+    if isinstance(wish, Edit):
+        desk.apply(_linked(desk, session, wish))
+        wish = None
+    elif blend is not None:
+        desk.apply(blend)
     chart: Request | None = None
     film: Request | None = None
     if desk.view.chart and session is not None:
@@ -152,7 +162,15 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     if desk.view.filmstrip and session is not None and desk.portraits is not None:
         stills = filmstrip(session)
         desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
-    return [asked for asked in (request, of_pins, chart, film, *more) if asked is not None]
+    return [asked for asked in (request, of_pins, wish, chart, film, *more) if asked is not None]
+
+
+def _linked(desk: Desk, session: Session | None, edit: Edit) -> Edit:
+    """Let the twin of a slider move along while left and right are one."""
+    if session is None or edit.weights is None or not desk.view.symmetric:
+        return edit
+    before = session.committed.panes[session.active].pose.weights
+    return replace(edit, weights=linked_weights(session.mirror, before, edit.weights))
 
 
 def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
@@ -245,6 +263,7 @@ def over_picture(
     for view, place in zip(desk.view.panes, viewports, strict=False):
         if view.shading == "heat":
             heat_legend(session.rig.height, place, pixel_ratio, scale)
+    _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)
     elif not desk.view.pins.sketching:
@@ -309,6 +328,23 @@ def _hand(
         symmetry_sign(viewport, pixel_ratio, scale)
     hidden = sum(pin.hidden for pin in pins)
     return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
+
+
+def _vertex_under_mouse(
+    desk: Desk, stage: Stage, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
+) -> None:
+    """While Ctrl is held: tell which shapes can move what is under the mouse, and mark their sliders."""
+    io, view = imgui.get_io(), desk.view.weights
+    view.marked = frozenset()
+    if not io.key_ctrl or io.want_capture_mouse or any(io.mouse_down):
+        return
+    pixel = io.mouse_pos.x * pixel_ratio, io.mouse_pos.y * pixel_ratio
+    for at, (place, camera) in enumerate(zip(viewports, desk.cameras, strict=False)):
+        vertex = stage.vertex_under(at, camera, place, pixel) if place.contains(*pixel) else None
+        if vertex is not None:
+            found = movers(stage.session.rig, vertex)
+            view.marked = frozenset(j for j, _ in found)
+            vertex_card(stage.session.rig, stage.session.control, vertex, found, scale)
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:

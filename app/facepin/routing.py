@@ -136,6 +136,7 @@ class Router:
         self._pane = under[0]
         sight = self._sight(desk, stage, viewports, scale, self._pane)
         if isinstance(event, PointerPressed):
+            stage.session.settle()  # a slider may be on its way by wheel or key
             stage.session.active = self._pane
             if event.button == "right" and not event.modifiers.alt:
                 vertex = pin_at(sight, (event.x, event.y))

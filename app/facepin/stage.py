@@ -12,6 +12,7 @@ from facepin.core.camera import Camera, Viewport
 from facepin.core.control import ShapeControl
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
+from facepin.core.picking import pick
 from facepin.core.pose import Pose
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
@@ -118,6 +119,13 @@ class Stage:
         assert positions is not None, "update() fills this"
         return positions
 
+    def vertex_under(
+        self, pane: int, camera: Camera, viewport: Viewport, pixel: tuple[float, float]
+    ) -> int | None:
+        """Return the vertex of a pane that a press at a pixel would pin, or None."""
+        hit = pick(self.positions(pane), self.triangles, camera, viewport, pixel)
+        return None if hit is None else hit.vertex
+
     def appraise(self, pane: int) -> Appraisal:
         """Measure a pane's pose as it is shown."""
         work, shown = self.session.work, self._shown[pane]
@@ -181,6 +189,8 @@ class Stage:
             heat = shown.gauge.reach(work.panes[pane])
         elif view.shading == "heat":
             heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
+        if view.shape is not None:
+            heat = shown.gauge.shape(view.shape)
         return Overlays(heat, view.wireframe, self._ghost_of(view), view.shading)
 
     def portrait(

@@ -287,6 +287,8 @@ class Window:
         self._events.append(Scrolled(x, y, steps))
 
     def _on_key(self, _: object, key: int, scancode: int, action: int, __: int) -> None:
+        # A panel may wait for any key to go down, to repeat or to go up: imgui knows which.
+        self._events.append(Stirred())
         name = _KEYS.get(key)
         if action == glfw.RELEASE:
             if name in _HELD:

@@ -76,15 +76,14 @@ def act(request: Request, desk: Desk) -> bool:
 def _apply(desk: Desk, session: Session, pose: SavedPose, *, add: bool) -> None:
     """Put a pose on the face, or add it; say what of it this rig lacks, and what goes beyond its limits."""
     weights = session.pose.weights + pose.weights if add else pose.weights
-    limits = session.rig.limits
+    limits = session.control.limits
     beyond = out_of_range(weights, limits) - out_of_range(session.pose.weights, limits)
     desk.apply(Edit(f"{'Add' if add else 'Apply'} {pose.title}", True, weights=weights))
-    if session.message:
-        return
-    remarks = [pose.report] if pose.report else []
+    remarks = [line for line in (session.message, pose.report) if line]
     if add and beyond > 0:
         remarks.append(f"{beyond} weight{' is' if beyond == 1 else 's are'} beyond the limits now")
-    desk.say(f"{pose.title}: {'; '.join(remarks)}" if remarks else "")
+    line = f"{pose.title}: {'; '.join(remarks)}" if remarks else ""
+    desk.say(line, error=bool(session.message))
 
 
 def _arrange(desk: Desk, session: Session, library: Library, label: str, changes: Shelf) -> None:
@@ -101,7 +100,8 @@ def _compare(desk: Desk, session: Session, first: SavedPose, second: SavedPose) 
     """Show one pose on the face with another one as the reference, its ghost shining through."""
     session.compare(f"Compare {first.title} and {second.title}", second.weights, first.weights)
     desk.view.panes[session.active].ghost = "reference"
-    desk.say(f"{second.title} on the face; {first.title} is the reference and shines through")
+    locks = f"; {session.message}" if session.message else ""
+    desk.say(f"{second.title} on the face; {first.title} is the reference and shines through{locks}")
 
 
 def _take_from(desk: Desk, folder: Path) -> None:

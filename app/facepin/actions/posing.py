@@ -1,7 +1,7 @@
 """The pose as a whole, and the way back."""
 
 from facepin.desk import Desk
-from facepin.panels.requests import Command, GoToStep, Request
+from facepin.panels.requests import CancelEdit, Command, GoToStep, Request, SetControl
 
 
 def act(request: Request, desk: Desk) -> bool:
@@ -22,6 +22,12 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.RESET_POSE:
             session.reset()
             desk.say(session.message)
+        case SetControl(label, control, final):
+            session.set_control(label, control, final=final)
+            desk.say("")
+        case CancelEdit():
+            session.cancel()
+            desk.say("")
         case _:
             return False
     return True

@@ -115,7 +115,7 @@ def _turntable(desk: Desk, stage: Stage) -> Steps:
     width, height = _size(desk)
     shrink = min(TURN_HEIGHT / height, 1.0)
     size = (max(round(shrink * width), 1), max(round(shrink * height), 1))
-    camera, pose = desk.camera, session.pose
+    camera, pose = desk.camera, session.pose.with_weights(session.control.heard(session.pose.weights))
     images = []
     for number in range(TURN):
         turned = camera.orbited(2 * pi * number / TURN, 0.0)

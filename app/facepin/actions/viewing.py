@@ -4,7 +4,7 @@ from math import radians
 
 from facepin.core.camera import frame_points
 from facepin.desk import Desk
-from facepin.panels.requests import VIEW_COMMANDS, Command, Request
+from facepin.panels.requests import VIEW_COMMANDS, Command, Request, ShadeAs
 
 STEP = radians(15)
 TURNS: dict[Command, tuple[float, float]] = {
@@ -37,6 +37,8 @@ def act(request: Request, desk: Desk) -> bool:
             shown.next_mode()
         case Command.HEAT:
             shown.toggle_heat()
+        case ShadeAs(mode):
+            shown.mode = mode
         case Command.WIREFRAME:
             shown.wireframe = not shown.wireframe
         case Command.GHOST:

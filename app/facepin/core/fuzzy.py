@@ -3,9 +3,11 @@
 WORD_START, CAPITAL, CONSECUTIVE, LETTER = 10.0, 8.0, 9.0, 1.0
 """What a letter is worth: that begins a word, that is a capital inside of one, that follows the letter found
 before it, and any other."""
-GAP = 0.3
+GAP = 1.0
 """What each letter skipped between two found ones costs, up to `LONGEST_GAP` of them."""
-LONGEST_GAP = 10
+LONGEST_GAP = 6
+LEAST = 1.5
+"""What each letter has to be worth on average: less is a phrase that has them somewhere, by chance."""
 WHOLE_WORD = 5.0
 """What it is worth that a word was typed from its beginning to its end."""
 
@@ -28,7 +30,7 @@ def match(word: str, phrase: str) -> Way | None:
     -------
     (float, tuple of int) or None
         How well it fits (more is better), and which letters of `phrase` were found, ascending; None when they
-        are not all there, or `word` is empty.
+        are not all there, or scattered by chance, or `word` is empty.
     """
     letters, worths = phrase.lower(), _worths(phrase)
     ways: list[Way] = []  # the best way that ends at each letter of the phrase
@@ -43,7 +45,7 @@ def match(word: str, phrase: str) -> Way | None:
             longer.append(best)
         ways = longer
     worth, found = max(ways, default=_NONE)
-    if not found:
+    if worth < LEAST * len(word) or not found:
         return None
     first, last = found[0], found[-1]
     ends = last + 1 == len(phrase) or not phrase[last + 1].isalnum()

@@ -16,7 +16,7 @@ from facepin.core.rig import Rig
 from facepin.core.topology import DrawOrder
 from facepin.gpu.canvas import release_framebuffer
 from facepin.gpu.framing import column_major
-from facepin.gpu.materials import Run, cull_hidden
+from facepin.gpu.materials import EYEBALL, Run, by_name, cull_hidden
 from facepin.gpu.programs import load_program
 
 DIRECTIONS, OPENED_DIRECTIONS = 60, 16
@@ -29,6 +29,10 @@ CONTRAST = 1.5
 """By how much shadows of lamps are sharper than a plane through what is seen of the room would have them."""
 OPENED_SHARE = 0.8
 """How much of the light in an open mouth counts: teeth are seen, and closed lips keep their line."""
+OPENING = ("jawopen", "mouthupperup", "mouthlowerdown", "eyewide")
+"""Parts of the names, without underscores, of the shapes that show what the neutral hides."""
+EYES_OPEN = 0.6
+"""Least openness of eyeballs: what the lids cover in the neutral comes out when the gaze turns."""
 
 
 class Openness:
@@ -96,6 +100,10 @@ class Openness:
         values = shut + hidden * (OPENED_SHARE * np.sqrt(wide) - shut)
         towards = shut_towards + hidden[:, None] * (wide_towards - shut_towards)
         self.values = smoothed(values.astype(np.float32), rig)
+        for part in rig.parts:
+            if by_name(part) is EYEBALL:
+                eyes = np.unique(rig.triangles[part.triangles.start : part.triangles.stop])
+                self.values[eyes] = np.maximum(self.values[eyes], EYES_OPEN)
         self.towards = smoothed(towards.astype(np.float32), rig, 5)
 
 
@@ -174,12 +182,13 @@ def outer_sides(rig: Rig, order: DrawOrder, runs: tuple[Run, ...]) -> NDArray[np
 
 
 def opened(rig: Rig) -> Points:
-    """Return positions with the mouth open: the jaw's shape by name, else the shape that moves most."""
+    """Return positions with mouth and eyes open by the names of shapes, else with the one that moves most."""
     if not rig.shape_count:
         return rig.neutral
-    weights = np.zeros(rig.shape_count)
-    named = [j for j, name in enumerate(rig.shape_names) if "jawopen" in name.lower().replace("_", "")]
-    weights[named[0] if named else int(np.argmax(rig.largest_moves))] = 1.0
+    names = [name.lower().replace("_", "") for name in rig.shape_names]
+    weights = np.array([float(any(part in name for part in OPENING)) for name in names])
+    if not weights.any():
+        weights[int(np.argmax(rig.largest_moves))] = 1.0
     positions: Points = rig.evaluate(weights)
     return positions
 

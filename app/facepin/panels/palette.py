@@ -7,8 +7,11 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.fuzzy import match
+from facepin.core.saved_pose import SavedPose
+from facepin.core.shading import MODES
 from facepin.panels.availability import is_on, why_not
 from facepin.panels.key_caps import caps_width, draw_caps
+from facepin.panels.library_requests import ApplyPose
 from facepin.panels.requests import (
     AddPane,
     Choose,
@@ -18,6 +21,7 @@ from facepin.panels.requests import (
     OpenPath,
     RandomReference,
     Request,
+    ShadeAs,
     UseSolver,
     key_of,
 )
@@ -32,10 +36,9 @@ ROWS = 11
 """Actions seen at once."""
 WIDTH = 38.0
 """Of the window, in heights of a letter."""
-IN_HELP = 2.0
-"""What it is worth that a word stands in the help of an action, but not in its title."""
-SCATTERED = 1.9
-"""What it is worth at most that the letters of a word stand apart in a title: less than in the help."""
+IN_HELP = 4.0
+"""What each letter of a word is worth that stands in the help of an action: less than one in its title, more
+than letters that are scattered there."""
 LATELY = 3.0
 """What it is worth at most that an action was chosen lately."""
 
@@ -55,19 +58,34 @@ class Entry:
     """Whether it is what is chosen already."""
 
 
-def entries(view: View, session: Session | None, recent: Sequence[Path]) -> list[Entry]:
+def entries(
+    view: View, session: Session | None, recent: Sequence[Path], poses: Sequence[SavedPose] = ()
+) -> list[Entry]:
     """List all actions there are, in the order of the table of commands; then what has a few values each."""
     found = [_command(command, view, session) for command in Command if command is not Command.PALETTE]
     if session is not None:
         found += _solvers(view, session)
+        mode = view.panes[session.active].mode
+        found += [
+            Entry(f"Shading: {kind.title}", "View", ShadeAs(name), on=name == mode)
+            for name, kind in MODES.items()
+        ]
     for name, choice in CHOICES.items():
         for value, title in choice.values.items():
             on = getattr(view, name) == value
             found.append(
                 Entry(f"{choice.title}: {title}", "Settings", Choose(name, value), choice.help, on=on)
             )
+    if session is not None:
+        found += [Entry(f"Pose: {pose.title}", "Poses", ApplyPose(pose.key), _words(pose)) for pose in poses]
     found += [Entry(f"Open {path.name}", "Recent", OpenPath(path), str(path)) for path in recent]
     return found
+
+
+def _words(pose: SavedPose) -> str:
+    """Say what choosing a pose of the library does; its tags find it too."""
+    tags = f" ({', '.join(pose.tags)})" if pose.tags else ""
+    return f"Puts this pose of the library on the face{tags}."
 
 
 def _command(command: Command, view: View, session: Session | None) -> Entry:
@@ -128,16 +146,14 @@ def ranked(found: Sequence[Entry], query: str, lately: Sequence[str]) -> list[tu
         worth, letters = 0.0, set[int]()
         for word in query.split():
             way = match(word, entry.title)
-            if len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower():
-                worth += IN_HELP if way is None else max(way[0], IN_HELP)
-            elif way is None:
-                break
-            elif len(word) > 2 and word.lower() not in entry.title.lower():
-                worth += min(way[0], SCATTERED)
-            else:
+            explained = len(word) > 2 and word.lower() in f"{entry.topic} {entry.help}".lower()
+            if way is not None and not (explained and way[0] < IN_HELP * len(word)):
                 worth += way[0]
-            if way is not None:
                 letters.update(way[1])
+            elif explained:
+                worth += IN_HELP * len(word)
+            else:
+                break
         else:
             name = _plain(entry)
             if name in lately:
@@ -152,7 +168,13 @@ def _plain(entry: Entry) -> str:
     return entry.request.title if isinstance(entry.request, Command) else entry.title
 
 
-def palette(view: View, session: Session | None, recent: Sequence[Path], scale: float) -> Request | None:
+def palette(
+    view: View,
+    session: Session | None,
+    recent: Sequence[Path],
+    poses: Sequence[SavedPose],
+    scale: float,
+) -> Request | None:
     """Draw the command palette while it is open; return what the user chose, or None.
 
     Parameters
@@ -163,13 +185,16 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
         What is open, if anything; only read.
     recent : sequence of Path
         Rigs opened lately.
+    poses : sequence of SavedPose
+        The library.
     scale : float
         imgui units per pixel of a 1x screen.
     """
     state = view.palette
     if state is None:
         return None
-    fitting = ranked(entries(view, session, recent), state.query, view.lately)
+    found = entries(view, session, recent, poses)
+    fitting = ranked(found, state.query, view.lately)
     state.row = min(state.row, max(len(fitting) - 1, 0))
     area = imgui.get_main_viewport()
     row = imgui.get_frame_height()
@@ -194,7 +219,7 @@ def palette(view: View, session: Session | None, recent: Sequence[Path], scale: 
     )
     if query != state.query:
         state.query, state.row = query, 0
-        fitting = ranked(entries(view, session, recent), state.query, view.lately)
+        fitting = ranked(found, state.query, view.lately)
     step = _steps()
     if step and fitting:
         at, last = state.row + step, len(fitting) - 1

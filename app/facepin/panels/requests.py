@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 from facepin.core.camera import View
+from facepin.core.control import ShapeControl
 from facepin.core.events import KeyPressed
 from facepin.core.pose import Freedom
 from facepin.panels.library_requests import LibraryRequest
@@ -416,6 +417,27 @@ class PairShapes:
     twin: int | None
 
 
+@dataclass(frozen=True, eq=False)
+class SetControl:
+    """Lock, mute or limit shapes."""
+
+    label: str
+    control: ShapeControl
+    final: bool = True
+
+
+@dataclass(frozen=True)
+class CancelEdit:
+    """Give up what a panel was changing: everything is as it was before."""
+
+
+@dataclass(frozen=True)
+class ShadeAs:
+    """Show the active pane in one of the modes of `core.shading.MODES`."""
+
+    mode: str
+
+
 @dataclass(frozen=True)
 class CancelLoading:
     """Give up opening a file, or looking for the rig of a scene."""
@@ -440,10 +462,13 @@ Request = (
     | DiscardWork
     | PairShapes
     | Choose
+    | ShadeAs
     | SetPins
     | NamePin
     | RemovePins
     | SelectPins
+    | SetControl
+    | CancelEdit
     | CancelLoading
     | CancelJob
     | LibraryRequest

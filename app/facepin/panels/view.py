@@ -12,7 +12,7 @@ from facepin.panels.library_view import LibraryView
 from facepin.panels.pins import FREEDOMS, PinsView
 from facepin.panels.recovery import RecoveryView
 from facepin.panels.theme import THEMES, Theme, ThemeName
-from facepin.panels.weights import WeightsView
+from facepin.panels.weights.view import WeightsView
 from facepin.session.navigation import PRESETS, Habit
 from facepin.session.solving import SolverChoice
 
@@ -34,6 +34,8 @@ class PaneView:
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 
+    shape: int | None = None
+    """Shape whose moves are shown as colours; while the mouse rests on its name."""
     before_heat: Shading = "studio"
     """What the heat map gives way to."""
 
@@ -62,8 +64,8 @@ class PaneView:
 
     @property
     def measured(self) -> bool:
-        """Whether colours are a measure: of the move, or of the reach of the solver's radius."""
-        return self.shading == "heat" or self.reach
+        """Whether colours are a measure: of a move, or of the reach of the solver's radius."""
+        return self.shading == "heat" or self.reach or self.shape is not None
 
     def next_ghost(self, *, has_reference: bool) -> None:
         """Go on to the next ghost there is."""
@@ -71,9 +73,9 @@ class PaneView:
         self.ghost = ghosts[(ghosts.index(self.ghost) + 1) % len(ghosts)] if self.ghost in ghosts else "none"
 
     @property
-    def key(self) -> tuple[Shading, bool, Ghost, bool]:
+    def key(self) -> tuple[Shading, bool, Ghost, bool, int | None]:
         """Equal keys look the same."""
-        return self.shading, self.wireframe, self.ghost, self.reach
+        return self.shading, self.wireframe, self.ghost, self.reach, self.shape
 
 
 @dataclass

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from facepin.core.pose import Pose
 from facepin.session.session import Session
 
@@ -13,17 +15,25 @@ class Still:
     label: str
     """What was done."""
     pose: Pose
-    """What it led to."""
+    """What it led to, as it was shown: without the weights of shapes that were muted."""
 
 
 def filmstrip(session: Session) -> tuple[Still, ...]:
-    """Return the steps of the active pane up to now, without those that left its weights and pins alone."""
+    """Return the steps of the active pane up to now, without those after which it looked the same."""
     stills: list[Still] = []
     for step in session.steps[: session.step + 1]:
         panes = step.value.panes
         pose = panes[min(session.active, len(panes) - 1)].pose
+        heard = step.value.control.heard(pose.weights)
+        if heard is not pose.weights:
+            pose = pose.with_weights(heard)
         if not stills:
             stills.append(Still("Start", pose))
-        elif pose is not stills[-1].pose:
+        elif not _look_alike(pose, stills[-1].pose):
             stills.append(Still(step.label, pose))
     return tuple(stills)
+
+
+def _look_alike(pose: Pose, other: Pose) -> bool:
+    same = pose.weights is other.weights or np.array_equal(pose.weights, other.weights)
+    return same and (pose.pins is other.pins or pose.pins == other.pins)

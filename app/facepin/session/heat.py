@@ -8,6 +8,7 @@ from facepin.core.geodesic import geodesic_distances
 from facepin.core.heat import heat_scale
 from facepin.core.measures import moves
 from facepin.core.rig import Rig
+from facepin.core.shape_motion import shape_moves
 from facepin.session.session import Pane
 
 
@@ -24,6 +25,7 @@ class HeatGauge:
         self._heat: Points = np.zeros(rig.vertex_count, np.float32)
         self._reached: tuple[tuple[int, ...], float] | None = None
         self._reach: Points = self._heat
+        self._shape: tuple[int, Points] | None = None
 
     def heat(self, pane: Pane, control: ShapeControl, positions: Points) -> Points:
         """Return the moves of the vertices in shares of the top of the heat scale, (n,) float32.
@@ -69,3 +71,13 @@ class HeatGauge:
                 distances = geodesic_distances(self._rig, places, radius)
                 self._reach = (1.0 - np.minimum(distances / radius, 1.0)).astype(np.float32)
         return self._reach
+
+    def shape(self, shape: int) -> Points:
+        """Return how far a shape alone moves each vertex, 1 where it moves it most, (n,) float32.
+
+        A new array only when the shape is another than before.
+        """
+        if self._shape is None or self._shape[0] != shape:
+            lengths = shape_moves(self._rig, shape)
+            self._shape = shape, (lengths / max(lengths.max(initial=0.0), 1e-30)).astype(np.float32)
+        return self._shape[1]

@@ -89,10 +89,11 @@ def twins_of(mirror: Mirror, vertices: Iterable[int]) -> frozenset[int]:
 
 
 def linked_weights(mirror: Mirror, before: Floats, after: Floats) -> Floats:
-    """Let the twins of weights (k,) that an edit changed take the same values."""
+    """Let the twins of weights (k,) that an edit changed take the same values, where it left them alone."""
     result = np.array(after, np.float64)
-    changed = np.flatnonzero((before != after) & (mirror.shapes >= 0))
-    result[mirror.shapes[changed]] = after[changed]
+    changed = before != after
+    leading = np.flatnonzero(changed & (mirror.shapes >= 0) & ~changed[mirror.shapes])
+    result[mirror.shapes[leading]] = after[leading]
     return result
 
 

@@ -75,6 +75,7 @@ class Session:
         self._numbers = count(len(panes))
         self._history = History(Work(panes, ShapeControl.of(rig)))
         self._preview: Work | None = None
+        self._preview_label = ""
         self._active = 0
         self._solvers: dict[tuple[int, SolverChoice, ShapeControl], PinSolver] = {}
 
@@ -253,8 +254,17 @@ class Session:
         self._show(label, replace(self._history.current, reference=kept), final=True)
 
     def compare(self, label: str, weights: Floats, reference: Floats) -> None:
-        """Put weights (k,) on the active pane, to be measured against others (k,), as one step."""
+        """Put weights (k,) on the active pane, to be measured against others (k,), as one step.
+
+        Locks are obeyed and told as by `apply`.
+
+        Raises
+        ------
+        FacepinError
+            When all that differs is locked.
+        """
         before = self._history.current
+        self.message = ""
         panes = self._edited(before, Edit(label, True, weights=weights))
         kept = frozen(reference, np.float64)
         self._show(label, replace(before, panes=panes, reference=kept), final=True)
@@ -267,6 +277,11 @@ class Session:
     def cancel(self) -> None:
         """Drop the gesture in progress; the poses are exactly those before it."""
         self._preview = None
+
+    def settle(self) -> None:
+        """Make an undo step of the gesture in progress, since another one begins."""
+        if self._preview is not None:
+            self._show(self._preview_label, self._preview, final=True)
 
     def undo(self) -> bool:
         """Take the gesture in progress back, or else the last undo step; False when there is neither."""
@@ -286,7 +301,7 @@ class Session:
         return self._history.go_to(step)
 
     def _show(self, label: str, work: Work, *, final: bool) -> None:
-        self._preview = None if final else work
+        self._preview, self._preview_label = None if final else work, label
         if final and work is not self._history.current:
             self._history.commit(label, work)
 

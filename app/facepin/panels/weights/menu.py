@@ -1,0 +1,63 @@
+"""The menus of a shape and of a group in the weights panel."""
+
+from imgui_bundle import imgui
+
+from facepin.core.arrays import Floats
+from facepin.core.control import ShapeControl
+from facepin.core.rig import Rig
+from facepin.panels.overlays import close_on_escape
+from facepin.panels.requests import SetControl
+from facepin.panels.weights.listing import Group
+from facepin.panels.weights.restraints import FLAGS, flags_of, limited, toggled
+from facepin.session.edit import Edit
+from facepin.session.sliding import reset, slid
+
+
+def row_menu(rig: Rig, control: ShapeControl, weights: Floats, j: int) -> Edit | SetControl | None:
+    """Draw the inside of the menu of a shape; return what the user changes, or None."""
+    name = rig.shape_names[j]
+    asked: Edit | SetControl | None = None
+    close_on_escape()
+    imgui.text_disabled(name)
+    imgui.separator()
+    if imgui.menu_item_simple("Reset", "Double click", enabled=bool(weights[j]) and not control.locked[j]):
+        asked = Edit(f"Reset {name}", True, weights=slid(weights, {j: 0.0}))
+    for flag in FLAGS:
+        if imgui.menu_item_simple(flag.capitalize(), selected=bool(flags_of(control, flag)[j])):
+            asked = toggled(control, flag, [j], name)
+    imgui.separator()
+    for at, title in enumerate(("lowest", "highest")):
+        imgui.set_next_item_width(5 * imgui.get_font_size())
+        _, limit = imgui.input_double(title, float(control.limits[j, at]), 0.0, 0.0, "%.3g")
+        if imgui.is_item_deactivated_after_edit():
+            limits = control.limits[j].tolist()
+            limits[at] = limit
+            if limits != control.limits[j].tolist():
+                asked = limited(control, j, limits, name)
+    own = rig.limits[j].tolist()
+    differ = own != control.limits[j].tolist()
+    if imgui.menu_item_simple(f"Limits of the rig: {own[0]:g} to {own[1]:g}", enabled=differ):
+        asked = limited(control, j, own, name)
+    return asked
+
+
+def group_menu(control: ShapeControl, weights: Floats, group: Group) -> Edit | SetControl | None:
+    """Draw the inside of the menu of a group; return what the user changes, or None."""
+    asked: Edit | SetControl | None = None
+    shapes = group.shapes.tolist()
+    close_on_escape()
+    imgui.text_disabled(f"{group.name.capitalize()}: {len(shapes)} shape{'s' if len(shapes) > 1 else ''}")
+    imgui.separator()
+    if imgui.menu_item_simple("Reset", enabled=bool(weights[group.shapes].any())):
+        asked = group_reset(control, weights, group)
+    for flag in FLAGS:
+        if imgui.menu_item_simple(
+            flag.capitalize(), selected=bool(flags_of(control, flag)[group.shapes].all())
+        ):
+            asked = toggled(control, flag, shapes, group.name)
+    return asked
+
+
+def group_reset(control: ShapeControl, weights: Floats, group: Group) -> Edit:
+    """Return the edit that puts the shapes of a group to zero, except locked ones."""
+    return Edit(f"Reset {group.name}", True, weights=reset(control, weights, group.shapes))

@@ -1,0 +1,56 @@
+"""Names made to fit."""
+
+from imgui_bundle import imgui
+
+MOST_KEPT = 4000
+
+
+class Elider:
+    """Shortens names in the middle, where the words that tell shapes apart are not; remembers the answers."""
+
+    def __init__(self) -> None:
+        self._size = 0.0
+        self._forget()
+
+    def _forget(self) -> None:
+        self._widths: dict[str, float] = {}
+        self._fitted: dict[tuple[str, int], str] = {}
+        self._widest: tuple[tuple[str, ...], float] = ((), 0.0)
+
+    def follow_font(self) -> None:
+        """Begin a frame: texts of another size have other widths."""
+        size = imgui.get_font_size()
+        if size != self._size or len(self._widths) + len(self._fitted) > MOST_KEPT:
+            self._size = size
+            self._forget()
+
+    def width(self, text: str) -> float:
+        """Return how wide a text is, in imgui units."""
+        width = self._widths.get(text)
+        if width is None:
+            width = self._widths[text] = imgui.calc_text_size(text).x
+        return width
+
+    def widest(self, texts: tuple[str, ...]) -> float:
+        """Return how wide the widest of some texts is; the same tuple is measured once."""
+        if self._widest[0] is not texts:
+            self._widest = texts, max((imgui.calc_text_size(text).x for text in texts), default=0.0)
+        return self._widest[1]
+
+    def fitted(self, text: str, room: float) -> str:
+        """Return the text, with "…" for its middle if it is wider than `room`."""
+        if self.width(text) <= room:
+            return text
+        key = (text, int(room))
+        fitted = self._fitted.get(key)
+        if fitted is None:
+            fitted = self._fitted[key] = self._shortened(text, room)
+        return fitted
+
+    def _shortened(self, text: str, room: float) -> str:
+        for kept in range(len(text) - 1, 1, -1):
+            front = (kept + 1) // 2
+            short = f"{text[:front]}…{text[len(text) - (kept - front) :]}"
+            if imgui.calc_text_size(short).x <= room:
+                return short
+        return "…"

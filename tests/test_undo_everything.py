@@ -10,7 +10,9 @@ import pytest
 
 from facepin.actions import carry_out
 from facepin.core.arrays import Points
+from facepin.core.control import ShapeControl
 from facepin.core.pose import Pin, as_vector
+from facepin.core.shading import MODES
 from facepin.desk import Desk
 from facepin.files.pose_file import write_pose
 from facepin.library import Library
@@ -140,6 +142,11 @@ MAKERS: dict[type, Maker] = {
     shelf.RemovePoses: lambda random, _: shelf.RemovePoses((key(random),)),
     shelf.ComparePoses: lambda random, _: shelf.ComparePoses(key(random), key(random)),
     shelf.StopBlending: lambda *_: shelf.StopBlending(),
+    requests.SetControl: lambda random, session: requests.SetControl(
+        "Control", random_control(random, session), final=bool(random.integers(2))
+    ),
+    requests.CancelEdit: lambda *_: requests.CancelEdit(),
+    requests.ShadeAs: lambda random, _: requests.ShadeAs(list(MODES)[random.integers(len(MODES))]),
     requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),
 }
 """How a request with something to say is made up."""
@@ -161,16 +168,19 @@ def test_every_request_is_tried_here() -> None:
     assert set(get_args(Request)) == {Command, *MAKERS, *ELSEWHERE}
 
 
+def random_control(random: np.random.Generator, session: Session) -> ShapeControl:
+    control = session.control
+    locked, muted, solo = (random.integers(0, 4, RIG.shape_count) == 0 for _ in range(3))
+    limits = control.limits + random.uniform(-0.1, 0.1, (RIG.shape_count, 1))
+    return dataclasses.replace(control, limits=limits, locked=locked, muted=muted, solo=solo)
+
+
 def random_edit(random: np.random.Generator, session: Session) -> None:
     """What hands and sliders do: a gesture of some steps, which ends, is given up, or goes on."""
     for final in (*[False] * random.integers(0, 3), bool(random.integers(4))):
         match random.integers(5):
             case 4:
-                control = session.control
-                locked, muted, solo = (random.integers(0, 4, RIG.shape_count) == 0 for _ in range(3))
-                limits = control.limits + random.uniform(-0.1, 0.1, (RIG.shape_count, 1))
-                control = dataclasses.replace(control, limits=limits, locked=locked, muted=muted, solo=solo)
-                session.set_control("Control", control, final=final)
+                session.set_control("Control", random_control(random, session), final=final)
             case 0:
                 session.apply(Edit("Set", final, weights=random.uniform(-0.5, 1.5, RIG.shape_count)))
             case 1:

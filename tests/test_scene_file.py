@@ -79,7 +79,7 @@ def test_a_scene_comes_back_bit_for_bit(tmp_path: Path) -> None:
         np.testing.assert_array_equal(getattr(again.control, name), getattr(session.control, name))
     assert (again.active, found.linked, found.report) == (1, False, "")
     assert found.cameras == snapshot(session).cameras
-    assert [view.key for view in found.views] == [(False, True, "reference", False)] * 2
+    assert [(view.wireframe, view.ghost) for view in found.views] == [(True, "reference")] * 2
     # Work goes on as if nothing had been between: the next drags and another solver give the same.
     for one in (session, again):
         one.choose_solver(0, choose("sparse"))
@@ -173,6 +173,13 @@ def test_weights_beyond_all_sense_are_cut_down_and_said() -> None:
     found = resume(replace(scene, panes=(pane,), active=0), RIG)
     assert found.work.panes[0].pose.weights[0] == 1e6
     assert "shape0" in found.report
+
+
+def test_what_a_pane_shows_is_taken_where_it_makes_sense() -> None:
+    scene = scene_of(snapshot(worked()), draft=True)
+    odd = {"wireframe": True, "ghost": "of Hamlet's father", "reach": True, "gone": 1.0}
+    found = resume(replace(scene, panes=tuple(replace(pane, shown=odd) for pane in scene.panes)), RIG)
+    assert [view.key for view in found.views] == [replace(PaneView(), wireframe=True).key] * 2
 
 
 def test_the_fingerprint_is_of_the_geometry_alone() -> None:

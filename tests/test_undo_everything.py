@@ -10,12 +10,14 @@ import pytest
 
 from facepin.actions import carry_out
 from facepin.core.arrays import Points
+from facepin.core.control import ShapeControl
 from facepin.core.pose import Pin, as_vector
-from facepin.core.saved_pose import SavedPose
+from facepin.core.shading import MODES
 from facepin.desk import Desk
 from facepin.files.pose_file import write_pose
+from facepin.library import Library
+from facepin.panels import library_requests as shelf
 from facepin.panels import requests
-from facepin.panels.library_requests import LibraryRequest
 from facepin.panels.requests import Command, Request
 from facepin.panels.view import View
 from facepin.session.edit import Edit
@@ -37,16 +39,18 @@ ASK_FOR_A_FILE = {
     Command.SAVE_AS,
     Command.SAVE_POSE,
     Command.EXPORT,
+    Command.TAKE_POSES,
     Command.REFERENCE_FROM_FILE,
 }
 NOT_HERE = {
-    Command.SCREENSHOT,  # draws
-    Command.SCREENSHOT_PINS,
+    *requests.PICTURES,  # draw
     Command.SAVE_CHART,
+    Command.CONTACT_SHEET,
+    Command.POSE_PICTURES,
+    Command.TURNTABLE,
+    Command.SAVE_FILMSTRIP,
     Command.OPEN_BUILTIN,  # begins another session
     Command.QUIT,
-    # Need the library of a rig and pictures of it.
-    *(command for command in Command if command.topic == "Poses"),
 }
 
 
@@ -66,10 +70,11 @@ class BareStage:
 
 
 @pytest.fixture
-def desk() -> Desk:
+def desk(tmp_path: Path) -> Desk:
     """A desk with the sheet on it, without a window."""
     desk = Desk(None, View(), [], native_dialogs=False, pictures=Path(), drafts=None, chart_writer=None)
     desk.stage = BareStage(Session(RIG, [choose("transpose")]))
+    desk.library = Library(desk.stage.session, tmp_path / "poses", "")
     return desk
 
 
@@ -90,6 +95,14 @@ def some_pins(random: np.random.Generator, session: Session) -> frozenset[int]:
 
 def random_choice(random: np.random.Generator) -> object:
     return choose(str(random.choice(list(SOLVERS))), keep_limits=bool(random.integers(2)))
+
+
+POSES = ("smile", "frown", "gone")
+"""Keys of poses in the library, and one that is not there."""
+
+
+def key(random: np.random.Generator) -> str:
+    return POSES[random.integers(len(POSES))]
 
 
 Maker = Callable[[np.random.Generator, Session], Request]
@@ -121,12 +134,19 @@ MAKERS: dict[type, Maker] = {
     requests.PairShapes: lambda random, _: requests.PairShapes(
         int(random.integers(RIG.shape_count)), [None, *range(RIG.shape_count)][random.integers(5)]
     ),
+    shelf.SavePose: lambda random, _: shelf.SavePose("Another", ("new",)),
+    shelf.ApplyPose: lambda random, _: shelf.ApplyPose(key(random), bool(random.integers(2))),
+    shelf.LabelPose: lambda random, _: shelf.LabelPose(key(random), f"Pose {random.integers(3)}", ()),
+    shelf.MovePose: lambda random, _: shelf.MovePose(key(random), random.choice([None, *POSES])),
+    shelf.ReplacePose: lambda random, _: shelf.ReplacePose(key(random)),
+    shelf.RemovePoses: lambda random, _: shelf.RemovePoses((key(random),)),
+    shelf.ComparePoses: lambda random, _: shelf.ComparePoses(key(random), key(random)),
+    shelf.StopBlending: lambda *_: shelf.StopBlending(),
     requests.SetControl: lambda random, session: requests.SetControl(
-        "Mute",
-        dataclasses.replace(session.control, muted=random.integers(0, 3, RIG.shape_count) == 0),
-        final=bool(random.integers(2)),
+        "Control", random_control(random, session), final=bool(random.integers(2))
     ),
     requests.CancelEdit: lambda *_: requests.CancelEdit(),
+    requests.ShadeAs: lambda random, _: requests.ShadeAs(list(MODES)[random.integers(len(MODES))]),
     requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),
 }
 """How a request with something to say is made up."""
@@ -137,12 +157,10 @@ ELSEWHERE = {
     requests.RestoreWork,
     requests.DiscardWork,
     requests.Choose,
-    requests.ShadeAs,
     requests.CancelJob,
-    *get_args(LibraryRequest),
 }
 """Requests about files and settings, which leave the session alone or begin another.  (A pose that is opened
-is an edit, and what is done to poses of the library is tried as the session sees it.)
+is an edit.)
 """
 
 
@@ -150,20 +168,19 @@ def test_every_request_is_tried_here() -> None:
     assert set(get_args(Request)) == {Command, *MAKERS, *ELSEWHERE}
 
 
+def random_control(random: np.random.Generator, session: Session) -> ShapeControl:
+    control = session.control
+    locked, muted, solo = (random.integers(0, 4, RIG.shape_count) == 0 for _ in range(3))
+    limits = control.limits + random.uniform(-0.1, 0.1, (RIG.shape_count, 1))
+    return dataclasses.replace(control, limits=limits, locked=locked, muted=muted, solo=solo)
+
+
 def random_edit(random: np.random.Generator, session: Session) -> None:
     """What hands and sliders do: a gesture of some steps, which ends, is given up, or goes on."""
     for final in (*[False] * random.integers(0, 3), bool(random.integers(4))):
-        match random.integers(6):
-            case 5 if final:  # no gesture
-                key = str(random.integers(3))
-                pose = SavedPose(key, "A pose", (), 1.0, random.random(RIG.shape_count), "", {})
-                session.arrange("Arrange", {key: [None, pose][random.integers(2)]})
+        match random.integers(5):
             case 4:
-                control = session.control
-                locked, muted, solo = (random.integers(0, 4, RIG.shape_count) == 0 for _ in range(3))
-                limits = control.limits + random.uniform(-0.1, 0.1, (RIG.shape_count, 1))
-                control = dataclasses.replace(control, limits=limits, locked=locked, muted=muted, solo=solo)
-                session.set_control("Control", control, final=final)
+                session.set_control("Control", random_control(random, session), final=final)
             case 0:
                 session.apply(Edit("Set", final, weights=random.uniform(-0.5, 1.5, RIG.shape_count)))
             case 1:
@@ -178,14 +195,19 @@ def random_edit(random: np.random.Generator, session: Session) -> None:
         session.cancel()
 
 
+def titles(library: Library) -> list[tuple[str, str]]:
+    """What the library holds, in order; poses that were saved meanwhile are no part of what is undone."""
+    return [(pose.key, pose.title) for pose in library.poses if pose.key in POSES]
+
+
 def state(session: Session) -> tuple[Work, list[object]]:
     """The work, and everything in it by value: nothing may change behind a snapshot either."""
     work = session.committed
     control = work.control
     values: list[object] = [None if work.reference is None else work.reference.tobytes()]
     values += [flags.tobytes() for flags in (control.limits, control.locked, control.muted, control.solo)]
-    values.append(dict(work.shelf))
     values.append(None if work.mirror is None else work.mirror.shapes.tobytes())
+    values.append(dict(work.shelf))
     for pane in work.panes:
         began = None if pane.began is None else (pane.began.weights.tobytes(), pane.began.pins)
         values += [pane.choice, pane.pose.weights.tobytes(), pane.pose.pins, pane.hand.tobytes(), began]
@@ -199,12 +221,17 @@ def test_undo_leads_to_the_start_and_redo_to_the_end(desk: Desk, tmp_path: Path,
     commands = [command for command in Command if command not in ASK_FOR_A_FILE | NOT_HERE]
     pose = tmp_path / "pose.json"
     write_pose(pose, RIG, dataclasses.replace(session.pose, weights=np.array([0.1, 0.9, 0.3, 0.5])))
+    poses = tmp_path / "poses"
+    for title in POSES[:2]:
+        desk.library.save(session.pose, title, ())
     makers = [*MAKERS.values(), lambda *_: requests.OpenPath(pose)]
     steps = 0
     for seed in range(part, SEQUENCES, 6):
         random = np.random.default_rng(seed)
         desk.stage = BareStage(session := Session(RIG, [random_choice(random)]))
-        seen = [state(session)]
+        library = desk.library = Library(session, poses, "")
+        library.read_all()
+        seen, at_first = [state(session)], titles(library)
         for _ in range(random.integers(1, LENGTH)):
             match random.integers(3):
                 case 0:
@@ -221,10 +248,14 @@ def test_undo_leads_to_the_start_and_redo_to_the_end(desk: Desk, tmp_path: Path,
             assert session.undo()
             assert state(session) == seen[session.step]
         assert not session.undo()
+        assert titles(library) == at_first
         assert session.committed is seen[0][0]
         while session.redo():
             assert state(session) == seen[session.step]
         assert session.committed is seen[-1][0]
+        session.go_to(0)
+        desk.sync()
+        assert {path.stem for path in poses.glob("*.json")} >= {key for key, _ in at_first}
     assert steps > 2 * SEQUENCES / 6
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, get_args, get_type_hints
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from facepin.files.checked_json import JsonObject
 from facepin.files.pins_file import parse_pins, pins_as_json
 from facepin.files.scene_file import RigReference, Scene, SceneControl, ScenePane, Weights
 from facepin.files.shape_spelling import match_shapes
-from facepin.panels.view import Ghost, PaneView
+from facepin.panels.view import PaneView
 from facepin.session.session import MOST_PANES, Pane, Work
 from facepin.session.solving import SolverChoice, choose, snapped
 from facepin.solvers import SOLVERS
@@ -272,10 +272,9 @@ def _choice(pane: ScenePane) -> tuple[SolverChoice, Sequence[str]]:
 
 def _view(shown: Mapping[str, Plain]) -> PaneView:
     """Return what a pane shows; a value that makes no sense is left out."""
-    view = PaneView()
+    view, kinds = PaneView(), get_type_hints(PaneView)
     for name, usual in shown_over(view).items():
-        value = shown.get(name, usual)
-        fits = value in get_args(Ghost) if name == "ghost" else type(value) is type(usual)
-        if fits:
+        value, allowed = shown.get(name, usual), get_args(kinds[name])
+        if value in allowed if allowed else type(value) is type(usual):
             setattr(view, name, value)
     return view

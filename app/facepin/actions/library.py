@@ -51,8 +51,9 @@ def act(request: Request, desk: Desk) -> bool:
             if (named.title, named.tags) != (pose.title, pose.tags):
                 _arrange(desk, session, library, word, {key: named})
         case MovePose(key, before):
+            title = library.pose(key).title
             if changes := moved(library.poses, key, before):
-                _arrange(desk, session, library, f"Move {library.pose(key).title}", changes)
+                _arrange(desk, session, library, f"Move {title}", changes)
         case ReplacePose(key):
             pose = library.pose(key)
             new = replaced(pose, session.rig, session.pose)

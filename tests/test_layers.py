@@ -13,7 +13,7 @@ LAYERS: list[set[str]] = [
     {"__main__"},
     {"commands"},
     {"main_loop", "figures"},
-    {"interface", "routing"},
+    {"interface", "routing", "painting"},
     {"actions"},
     {"desk"},
     {"papers", "library", "portraits", "keeping", "opening"},

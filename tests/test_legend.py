@@ -14,6 +14,7 @@ from facepin.panels.theme import THEMES, apply_theme
 def frame() -> Iterator[None]:
     """An imgui frame without a window."""
     context = imgui.create_context()
+    imgui.get_io().set_ini_filename(None)  # else the layout is written where tests are run
     io = imgui.get_io()
     io.set_ini_filename(None)
     io.display_size = imgui.ImVec2(800, 600)

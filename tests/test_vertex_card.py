@@ -20,6 +20,7 @@ def texts(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
     for name in ("text", "text_disabled"):
         monkeypatch.setattr(imgui, name, written.append)
     imgui.create_context()
+    imgui.get_io().set_ini_filename(None)  # else the layout is written where tests are run
     io = imgui.get_io()
     io.backend_flags |= imgui.BackendFlags_.renderer_has_textures
     io.display_size = imgui.ImVec2(800, 600)

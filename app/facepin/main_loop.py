@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 
-import moderngl
 from imgui_bundle import imgui
 
 from facepin import interface
@@ -14,13 +13,12 @@ from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
-from facepin.core.quality import Level, level
 from facepin.core.rig import Rig
 from facepin.desk import ChartWriter, Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
-from facepin.gpu.canvas import Canvases
 from facepin.layout_file import LayoutFile
 from facepin.options import BUILTIN
+from facepin.painting import Painting
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Command
@@ -29,7 +27,6 @@ from facepin.panels.view import View
 from facepin.resources import resource
 from facepin.routing import Router
 from facepin.session.solving import SolverChoice
-from facepin.stage import Stage
 from facepin.window import Window
 
 IDLE_WAIT = 0.5
@@ -100,7 +97,7 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         At the end, when there is such work and it could not be kept.
     """
     view = View()
-    canvases = Canvases(window.ctx, window.texture)
+    painting = Painting(window.ctx, window.texture)
     desk = Desk(
         window.ctx,
         view,
@@ -114,19 +111,19 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
     _set_up_imgui()
     layout_file = LayoutFile(start.settings_folder / "layout.ini" if start.settings_folder else None)
     try:
-        yield from _loop(window, start, desk, layout_file, canvases)
+        yield from _loop(window, start, desk, layout_file, painting)
     finally:
         layout_file.save()
         desk.keep()
         lost = desk.keeper.close()
         desk.release()
-        canvases.release()
+        painting.release()
         if lost:
             raise FacepinError(lost)
 
 
 def _loop(
-    window: Window, start: Start, desk: Desk, layout_file: LayoutFile, canvases: Canvases
+    window: Window, start: Start, desk: Desk, layout_file: LayoutFile, painting: Painting
 ) -> Iterator[Frame]:
     """Draw frame after frame until the user quits."""
     view = desk.view
@@ -137,7 +134,6 @@ def _loop(
     view.guide.step = preferences.guide
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
-    software = _is_software(window.ctx)
     router = Router()
     view.recovery.shown = bool(desk.keeper.left)
     for problem in (*desk.keeper.remarks, layout_file.complaint, complaint):
@@ -151,7 +147,6 @@ def _loop(
     desk.viewport = viewport
     scale: float | None = None
     theme: Theme | None = None
-    drawn: object = None
     settling, wait, title, seconds, reset_layout = SETTLE, 0.0, "", 0.0, False
     unkept = ""
     look_again: float | None = None
@@ -202,32 +197,18 @@ def _loop(
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         reset_layout = False
+        stage = desk.stage
+        if stage is not None:
+            viewports = layout.split(viewport, len(stage.session.panes), PANE_GAP * window.scale)
+            desk.viewport, desk.pixel_scale = viewports[0], window.scale
         asked += interface.panels(desk, scale)
         asked += interface.cards(desk, viewport, window.pixel_ratio, scale)
-        if desk.stage is not None:
-            moved = desk.stage.update()
-            viewports = layout.split(viewport, len(desk.stage.session.panes), PANE_GAP * window.scale)
-            desk.viewport, desk.pixel_scale = viewports[0], window.scale
+        if stage is not None:
+            moved = stage.update()
             asked += interface.over_picture(desk, viewport, viewports, window.pixel_ratio, scale)
-
-            # The picture, where it is another than the last one.
             moving = moved or router.navigator.holding or desk.tool.holding
-            quality = level(view.quality, software=software, moving=moving)
-            canvas = canvases.of(quality.samples)
-            wanted = _picture_key(desk, desk.stage, viewports, quality, window.size)
-            if wanted != drawn:
-                canvas.resize(*window.size)
-                desk.stage.draw(
-                    canvas,
-                    list(zip(viewports, desk.cameras, strict=True)),
-                    view.panes,
-                    desk.tool,
-                    window.scale,
-                    fine=quality.fine,
-                    beside=theme.panel,
-                )
-                drawn = wanted
-            window.show(canvas.flat())
+            painting.draw(desk, stage, viewports, window.size, theme.panel, moving=moving)
+            window.show(painting.flat())
         else:
             window.clear(theme.panel)
         window.end_frame()
@@ -277,20 +258,3 @@ def _set_up_imgui() -> None:
     io = imgui.get_io()
     io.config_flags |= imgui.ConfigFlags_.docking_enable
     io.config_windows_move_from_title_bar_only = True
-
-
-def _is_software(ctx: moderngl.Context) -> bool:
-    """Say whether OpenGL runs on the processor: many samples then wait until the picture rests."""
-    return any(word in ctx.info["GL_RENDERER"].lower() for word in ("llvmpipe", "softpipe", "swiftshader"))
-
-
-def _picture_key(
-    desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], quality: Level, size: tuple[int, int]
-) -> tuple[object, ...]:
-    """Return everything the picture depends on; the same key means the same picture."""
-    tool = desk.tool
-    overlays = tuple(pane.key for pane in desk.view.panes)
-    work = stage.session.work
-    hands = (tool.selected, tool.hovered, tool.held)
-    seen = (quality, size, viewports, tuple(desk.cameras), desk.view.theme)
-    return (stage, stage.refined, work, *seen, overlays, hands)

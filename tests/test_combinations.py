@@ -257,3 +257,14 @@ def test_the_built_in_face_is_what_its_file_says() -> None:
         face += np.einsum("c,cni->ni", weights[a] * weights[b], stored["combo_deltas"].astype(np.float64))
     np.testing.assert_allclose(rig.evaluate(weights), face, atol=1e-5)
     assert len(rig.combinations) == len(a) > 0
+
+
+def test_weights_whose_products_cannot_be_drawn_are_refused() -> None:
+    rig = combined()
+    first, second = rig.combinations[0].tolist()
+    rows = np.zeros(rig.shape_count)
+    rows[[first, second]] = 1e7
+    vertex = int(np.argmax(np.abs(rig.rows_at(range(rig.vertex_count))[:, first]))) // 3
+    goal = as_vector(by_formula(rig, 0 * rows)[vertex] + rig.rows_at([vertex])[:, : rig.shape_count] @ rows)
+    with pytest.raises(FacepinError, match="the last pose is kept"):
+        PinSolver(rig, choose("pseudo_inverse")).solve((Pin(vertex, goal),), np.zeros(rig.shape_count))

@@ -87,6 +87,10 @@ class PinProblem:
         system = PinSystem(slopes[:, free], limits, rig.scale, sizes[free], locality, ties, guess)
         return LinearProblem(system, free, self.rows @ rig.amounts(heard) - system.rows @ heard[free])
 
+    def amounts(self, weights: Floats) -> Floats:
+        """Return how much of each shape and combination a pose (k,) has, (k + c,)."""
+        return self._rig.amounts(weights)
+
     def moves(self, weights: Floats) -> Floats:
         """Return the moves of the pins at a pose (k,) from their places at rest, (r,): the true ones."""
         moves: Floats = self.rows @ self._rig.amounts(self._control.heard(weights))

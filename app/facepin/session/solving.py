@@ -12,10 +12,13 @@ from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin, Pose, as_vector, pin_displacement
 from facepin.core.rig import Rig
+from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.problem import LinearProblem, PinProblem
 from facepin.solvers import SOLVERS
 from facepin.solvers.interface import Solve, SolverKind
 
+LARGEST_AMOUNT = LARGEST_WEIGHT**2
+"""Of a shape or a combination in a solver's answer: more is beyond what can be drawn."""
 SECOND_LOOKS = 2
 """Times that a solver which starts afresh is asked again, for the face as it is at its last answer."""
 
@@ -143,7 +146,12 @@ class _Prepared:
         solution = self.solve(self.linear.displacement(displacement), self.linear.taken(start))
         if not np.isfinite(solution.weights).all():
             raise FacepinError(f"{self.title} gave weights that are not finite; the last pose is kept")
-        return self.linear.given_back(solution.weights, start), solution.notes
+        weights = self.linear.given_back(solution.weights, start)
+        largest = float(np.abs(self.problem.amounts(weights)).max(initial=0.0))
+        if largest > LARGEST_AMOUNT:
+            # Products of weights grow faster than weights: what can't be drawn must not become the pose.
+            raise FacepinError(f"{self.title} moves shapes {largest:.0e} times as far; the last pose is kept")
+        return weights, solution.notes
 
 
 def _mean_length(pins: tuple[Pin, ...], missing: Floats) -> float:

@@ -1,7 +1,7 @@
 #version 330 core
 // See mesh_fast.vert.
 
-in vec3 lit;
+noperspective in vec3 lit;
 
 out vec4 pixel;
 

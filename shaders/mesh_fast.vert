@@ -15,7 +15,7 @@ in vec3 normal;    // any length
 in vec4 albedo;    // linear base colour; a: how open to the room
 in vec3 towards;   // where it opens to
 
-out vec3 lit;
+noperspective out vec3 lit;   // triangles are small: nobody sees the difference, a processor feels it
 
 void main()
 {

@@ -1,7 +1,7 @@
 """Measures whole drag frames of the program, windowless: `python tests/drag_frames.py [RIG] [--solver KEY]`.
 
-Everything between a move of the mouse and the finished picture counts: routing, solving, deforming, drawing and
-all panels.  Prints a line per gesture: median, 10th and 90th percentile in milliseconds.
+Everything between a move of the mouse and the finished picture counts: routing, solving, deforming, drawing
+and all panels.  Prints a line per gesture: median, 10th and 90th percentile in milliseconds.
 """
 
 import argparse

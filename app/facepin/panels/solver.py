@@ -40,8 +40,7 @@ def solver_panel(
                 request = UseSolver(at, view.choices.get(key) or choose(key, keep_limits=choice.keep_limits))
             imgui.set_item_tooltip(kind.summary)
         imgui.end_combo()
-    _sentence(choice.kind.summary)
-    imgui.spacing()
+    imgui.set_item_tooltip(choice.kind.summary)
     for field in dataclasses.fields(choice.settings):
         value = getattr(choice.settings, field.name)
         when = field.metadata["when"]
@@ -62,7 +61,10 @@ def solver_panel(
         if changed:
             request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
     imgui.separator()
-    _answer(rig, control, pane.pose, pane.solved, theme)
+    if pane.solved is None:
+        _sentence(f"{choice.kind.summary} Its figures appear here with the first drag.")
+    else:
+        _answer(rig, control, pane.pose, pane.solved, theme)
     return request
 
 
@@ -96,28 +98,32 @@ def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any
     return changed, new
 
 
-def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved | None, theme: Theme) -> None:
-    """Draw what the last solve was like."""
-    if solved is None:
-        _sentence("Drag a point of the face: the solver's figures appear here.")
-        return
+def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved, theme: Theme) -> None:
+    """Draw what the last solve was like: two figures in a line, so that sliders have the room."""
     outside = out_of_range(pose.weights, control.limits_at(pose.weights))
     largest = float(np.abs(pose.weights).max(initial=0.0))
     figures = {
-        "solve time": f"{solved.seconds * 1e3:.2f} ms",
-        "pin error": f"{solved.pin_error:.4g} ({100 * solved.pin_error / rig.height:.2f} % of face)",
-        "out of range": f"{outside} weight{'' if outside == 1 else 's'}",
+        "solve": (f"{solved.seconds * 1e3:.2f} ms", "Time of the last solve."),
+        "pin error": (
+            f"{100 * solved.pin_error / rig.height:.2f} %",
+            f"Mean distance of the pins from their goals, in % of the face's height: {solved.pin_error:.4g}"
+            " in the rig's unit.",
+        ),
+        "out of range": (f"{outside}", "How many weights are beyond the limits of their shapes."),
     }
     if largest > HUGE:
-        figures["largest weight"] = f"{largest:,.0f}"
-    figures |= {name: f"{value:.4g}" for name, value in solved.notes.items()}
-    if imgui.begin_table("figures", 2, imgui.TableFlags_.sizing_stretch_prop):
-        for name, value in figures.items():
-            imgui.table_next_row()
+        figures["largest"] = f"{largest:,.0f}", "The largest weight: the face is far beyond its shapes."
+    figures |= {name: (f"{value:.4g}", "") for name, value in solved.notes.items()}
+    if imgui.begin_table("figures", 4, imgui.TableFlags_.sizing_stretch_prop):
+        for share in (26, 24, 24, 26):  # fixed: digits that change must not make columns dance
+            imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch, share)
+        for name, (value, help) in figures.items():
             imgui.table_next_column()
             imgui.text_disabled(name)
+            if help:
+                imgui.set_item_tooltip(help)
             imgui.table_next_column()
-            if (name == "out of range" and outside) or name == "largest weight":
+            if (name == "out of range" and outside) or name == "largest":
                 imgui.text_colored(imgui.ImVec4(*theme.warning), value)
             else:
                 imgui.text(value)

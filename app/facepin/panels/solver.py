@@ -56,6 +56,7 @@ def solver_panel(
             changed_choice = dataclasses.replace(choice, settings=settings)
             request = UseSolver(at, changed_choice, final=finished or not sliding)
     if not choice.kind.obeys_limits:
+        imgui.set_cursor_pos_x(_column())
         changed, keep = imgui.checkbox("keep within limits", choice.keep_limits)
         imgui.set_item_tooltip("Clip every weight the solver returns to the limits of its shape.")
         if changed:
@@ -74,26 +75,38 @@ def _sentence(text: str) -> None:
     imgui.pop_style_color()
 
 
+def _column() -> float:
+    """Return where the controls begin: names are left of them, as in the list of weights."""
+    return 0.35 * imgui.get_window_width()
+
+
 def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any]:
     """Draw one setting by its declared type and range; return (changed, value)."""
     title = name.replace("_", " ")
-    imgui.set_next_item_width(imgui.get_content_region_avail().x * 0.5)
     changed: bool
     new: Any
     if isinstance(value, bool):
+        imgui.set_cursor_pos_x(_column())
         changed, new = imgui.checkbox(title, value)
-    elif about["choices"]:
+        imgui.set_item_tooltip(about["help"])
+        return changed, new
+    imgui.align_text_to_frame_padding()
+    imgui.text(title)
+    imgui.set_item_tooltip(about["help"])
+    imgui.same_line(_column())
+    imgui.set_next_item_width(-1)
+    if about["choices"]:
         words = list(about["choices"])
-        changed, at = imgui.combo(title, words.index(value), words)
+        changed, at = imgui.combo(f"##{name}", words.index(value), words)
         new = words[at]
     elif isinstance(value, int):
-        changed, new = imgui.slider_int(title, value, int(about["low"]), int(about["high"]))
+        changed, new = imgui.slider_int(f"##{name}", value, int(about["low"]), int(about["high"]))
     else:
         flags = imgui.SliderFlags_.always_clamp
         if about["log"]:
             flags |= imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.no_round_to_format
         shown = "%.4g" if about["log"] else "%.3f"
-        changed, new = imgui.slider_float(title, value, about["low"], about["high"], shown, flags)
+        changed, new = imgui.slider_float(f"##{name}", value, about["low"], about["high"], shown, flags)
     imgui.set_item_tooltip(about["help"])
     return changed, new
 

@@ -9,7 +9,7 @@ SOLVER = "Solver"
 PINS = "Pins"
 LIBRARY = "Poses"
 PANEL_WIDTH = 330.0
-SOLVER_HEIGHT = 332.0
+SOLVER_HEIGHT = 258.0
 """First sizes of the docked panels, in pixels at 1x scale."""
 FACE_ASPECT = 0.75
 """Width over height of a pane that a face fills well."""

@@ -40,8 +40,7 @@ def solver_panel(
                 request = UseSolver(at, view.choices.get(key) or choose(key, keep_limits=choice.keep_limits))
             imgui.set_item_tooltip(kind.summary)
         imgui.end_combo()
-    _sentence(choice.kind.summary)
-    imgui.spacing()
+    imgui.set_item_tooltip(choice.kind.summary)
     for field in dataclasses.fields(choice.settings):
         value = getattr(choice.settings, field.name)
         when = field.metadata["when"]
@@ -57,12 +56,16 @@ def solver_panel(
             changed_choice = dataclasses.replace(choice, settings=settings)
             request = UseSolver(at, changed_choice, final=finished or not sliding)
     if not choice.kind.obeys_limits:
+        imgui.set_cursor_pos_x(_column())
         changed, keep = imgui.checkbox("keep within limits", choice.keep_limits)
         imgui.set_item_tooltip("Clip every weight the solver returns to the limits of its shape.")
         if changed:
             request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
     imgui.separator()
-    _answer(rig, control, pane.pose, pane.solved, theme)
+    if pane.solved is None:
+        _sentence(f"{choice.kind.summary} Its figures appear here with the first drag.")
+    else:
+        _answer(rig, control, pane.pose, pane.solved, theme)
     return request
 
 
@@ -72,52 +75,68 @@ def _sentence(text: str) -> None:
     imgui.pop_style_color()
 
 
+def _column() -> float:
+    """Return where the controls begin: names are left of them, as in the list of weights."""
+    return 0.35 * imgui.get_window_width()
+
+
 def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any]:
     """Draw one setting by its declared type and range; return (changed, value)."""
     title = name.replace("_", " ")
-    imgui.set_next_item_width(imgui.get_content_region_avail().x * 0.5)
     changed: bool
     new: Any
     if isinstance(value, bool):
+        imgui.set_cursor_pos_x(_column())
         changed, new = imgui.checkbox(title, value)
-    elif about["choices"]:
+        imgui.set_item_tooltip(about["help"])
+        return changed, new
+    imgui.align_text_to_frame_padding()
+    imgui.text(title)
+    imgui.set_item_tooltip(about["help"])
+    imgui.same_line(_column())
+    imgui.set_next_item_width(-1)
+    if about["choices"]:
         words = list(about["choices"])
-        changed, at = imgui.combo(title, words.index(value), words)
+        changed, at = imgui.combo(f"##{name}", words.index(value), words)
         new = words[at]
     elif isinstance(value, int):
-        changed, new = imgui.slider_int(title, value, int(about["low"]), int(about["high"]))
+        changed, new = imgui.slider_int(f"##{name}", value, int(about["low"]), int(about["high"]))
     else:
         flags = imgui.SliderFlags_.always_clamp
         if about["log"]:
             flags |= imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.no_round_to_format
         shown = "%.4g" if about["log"] else "%.3f"
-        changed, new = imgui.slider_float(title, value, about["low"], about["high"], shown, flags)
+        changed, new = imgui.slider_float(f"##{name}", value, about["low"], about["high"], shown, flags)
     imgui.set_item_tooltip(about["help"])
     return changed, new
 
 
-def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved | None, theme: Theme) -> None:
-    """Draw what the last solve was like."""
-    if solved is None:
-        _sentence("Drag a point of the face: the solver's figures appear here.")
-        return
+def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved, theme: Theme) -> None:
+    """Draw what the last solve was like: two figures in a line, so that sliders have the room."""
     outside = out_of_range(pose.weights, control.limits_at(pose.weights))
     largest = float(np.abs(pose.weights).max(initial=0.0))
     figures = {
-        "solve time": f"{solved.seconds * 1e3:.2f} ms",
-        "pin error": f"{solved.pin_error:.4g} ({100 * solved.pin_error / rig.height:.2f} % of face)",
-        "out of range": f"{outside} weight{'' if outside == 1 else 's'}",
+        "solve": (f"{solved.seconds * 1e3:.2f} ms", "Time of the last solve."),
+        "pin error": (
+            f"{100 * solved.pin_error / rig.height:.2f} %",
+            f"Mean distance of the pins from their goals, in % of the face's height: {solved.pin_error:.4g}"
+            " in the rig's unit.",
+        ),
+        "out of range": (f"{outside}", "How many weights are beyond the limits of their shapes."),
     }
     if largest > HUGE:
-        figures["largest weight"] = f"{largest:,.0f}"
-    figures |= {name: f"{value:.4g}" for name, value in solved.notes.items()}
-    if imgui.begin_table("figures", 2, imgui.TableFlags_.sizing_stretch_prop):
-        for name, value in figures.items():
-            imgui.table_next_row()
+        figures["largest"] = f"{largest:,.0f}", "The largest weight: the face is far beyond its shapes."
+    figures |= {name: (f"{value:.4g}", "") for name, value in solved.notes.items()}
+    if imgui.begin_table("figures", 4, imgui.TableFlags_.sizing_stretch_prop):
+        for share in (26, 24, 24, 26):  # fixed: digits that change must not make columns dance
+            imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch, share)
+        for name, (value, help) in figures.items():
             imgui.table_next_column()
             imgui.text_disabled(name)
+            if help:
+                imgui.set_item_tooltip(help)
             imgui.table_next_column()
-            if (name == "out of range" and outside) or name == "largest weight":
+            if (name == "out of range" and outside) or name == "largest":
                 imgui.text_colored(imgui.ImVec4(*theme.warning), value)
             else:
                 imgui.text(value)

@@ -112,9 +112,11 @@ def _gain(
 
 def _fill(at: imgui.ImVec2, width: float, gain: float, scale: float) -> None:
     """Draw how far the gain is from 1, which is in the middle."""
+    if gain == 1.0:
+        return
     height = imgui.get_frame_height()
     middle, end = at.x + width / 2, at.x + width * min(gain, MOST_GAIN) / MOST_GAIN
     begin, end = min(middle, end) - scale, max(middle, end) + scale
-    ink = imgui.get_color_u32(imgui.Col_.text_disabled if gain == 1.0 else imgui.Col_.check_mark)
+    ink = imgui.get_color_u32(imgui.Col_.check_mark)
     corner = ImVec2(end, at.y + height)
     imgui.get_window_draw_list().add_rect_filled(ImVec2(begin, at.y + height - 2 * scale), corner, ink)

@@ -13,7 +13,7 @@ from facepin.actions import carry_out
 from facepin.core.events import KeyPressed, Modifiers, PointerMoved, PointerPressed, PointerReleased
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
 from facepin.main_loop import Frame, Start, frames
 from facepin.panels.requests import Request
 from facepin.session.session import Session

@@ -11,6 +11,7 @@ from facepin.core.camera import Viewport
 from facepin.core.heat import heat_scale
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
+from facepin.desk.stage import Stage
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.picture import draw_picture
 from facepin.panels.view import Ghost, PaneView
@@ -18,7 +19,6 @@ from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 from facepin.session.solving import choose
-from facepin.stage import Stage
 from gpu_help import SIZE, ball, camera
 
 PANES = [Viewport(0, 0, SIZE / 2, SIZE), Viewport(SIZE / 2, 0, SIZE / 2, SIZE)]

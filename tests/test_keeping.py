@@ -14,11 +14,11 @@ import pytest
 
 from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
+from facepin.desk.keeping import Keeper
+from facepin.desk.scenes import RigSource, Snapshot, resume
 from facepin.files import drafts
 from facepin.files.drafts import Draft, leftovers
 from facepin.files.file_lock import take_lock
-from facepin.keeping import Keeper
-from facepin.scenes import RigSource, Snapshot, resume
 from facepin.session.autosave import Autosave
 from facepin.session.edit import Edit
 from facepin.session.session import Session

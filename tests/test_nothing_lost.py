@@ -264,7 +264,7 @@ def test_a_fault_in_a_frame_keeps_the_work(
 ) -> None:
     with pytest.raises(ZeroDivisionError), small(rig, settings_folder=tmp_path) as app:
         app.desk.apply(Edit("Set", True, weights=np.full(4, 0.125)))
-        monkeypatch.setattr("facepin.interface.panels", lambda *_: 1 // 0)
+        monkeypatch.setattr("facepin.frame.interface.panels", lambda *_: 1 // 0)
         app.step(PointerMoved(5, 5))
     (leftover,), _ = leftovers(tmp_path / "autosave")
     assert step_of(leftover.scene) == 0.125

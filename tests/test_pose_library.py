@@ -14,10 +14,10 @@ from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.core.saved_pose import SavedPose
+from facepin.desk.library import Library, library_of
 from facepin.files.pose_file import read_pose, write_pose
 from facepin.files.pose_library import free_key, library_folder, pose_files, replaced, saved_poses
 from facepin.files.thumbnails import mark_of, read_thumbnail, write_thumbnail
-from facepin.library import Library, library_of
 from facepin.session.session import Session
 from facepin.session.shelf import moved
 from facepin.session.solving import choose

@@ -8,10 +8,10 @@ import pytest
 
 from driver import running
 from facepin.core.quality import LEVELS, Level, level
+from facepin.desk.stage import Stage
 from facepin.files.preferences import read_preferences
 from facepin.gpu.canvas import Canvas, Canvases
 from facepin.panels.requests import Choose
-from facepin.stage import Stage
 
 
 def test_automatic_is_fast_only_in_motion_without_a_graphics_card() -> None:

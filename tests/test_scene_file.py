@@ -12,9 +12,9 @@ from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
+from facepin.desk.scenes import RigSource, Snapshot, resume, scene_of, shown_over
 from facepin.files.scene_file import NewerVersion, parse_scene, places, read_scene, scene_bytes, write_scene
 from facepin.panels.view import PaneView
-from facepin.scenes import RigSource, Snapshot, resume, scene_of, shown_over
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 from facepin.session.solving import choose

@@ -11,13 +11,13 @@ from PIL import Image
 from driver import App, running
 from facepin.__main__ import main
 from facepin.actions import series
-from facepin.animation import write_animation
 from facepin.core.arrays import frozen
 from facepin.core.errors import FacepinError
 from facepin.core.events import PointerMoved
 from facepin.core.pose import Pin, Pose
 from facepin.figures.movie import played
 from facepin.files import write_model
+from facepin.files.animation import write_animation
 from facepin.files.pins_file import write_pins
 from facepin.files.pose_file import write_pose
 from facepin.panels.guide import STEPS, Guide

@@ -13,9 +13,9 @@ from facepin.core.arrays import Points
 from facepin.core.control import ShapeControl
 from facepin.core.pose import Pin, as_vector
 from facepin.core.shading import MODES
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.library import Library
 from facepin.files.pose_file import write_pose
-from facepin.library import Library
 from facepin.panels import library_requests as shelf
 from facepin.panels import requests
 from facepin.panels.requests import Command, Request

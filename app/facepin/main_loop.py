@@ -7,25 +7,24 @@ from time import perf_counter
 
 from imgui_bundle import imgui
 
-from facepin import interface
 from facepin.actions import carry_out
 from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.desk import ChartWriter, Desk
+from facepin.desk.desk import ChartWriter, Desk
 from facepin.files.preferences import Preferences, read_preferences, write_preferences
-from facepin.layout_file import LayoutFile
-from facepin.options import BUILTIN
-from facepin.painting import Painting
+from facepin.frame import interface
+from facepin.frame.layout_file import LayoutFile
+from facepin.frame.painting import Painting
+from facepin.frame.routing import Router
 from facepin.panels import layout
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Command
 from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
-from facepin.resources import resource
-from facepin.routing import Router
+from facepin.resources import BUILTIN, resource
 from facepin.session.solving import SolverChoice
 from facepin.window import Window
 

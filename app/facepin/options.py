@@ -8,13 +8,11 @@ from facepin.core.camera import View
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
-from facepin.resources import resource
+from facepin.resources import BUILTIN, resource
 from facepin.session.solving import SolverChoice, choose
 from facepin.solvers import SOLVERS
 from facepin.solvers.settings import parse_settings
 
-BUILTIN = "faces/ada.npz"
-"""The face that is there when no other is named."""
 VIEWS: tuple[View, ...] = ("front", "left", "right", "three-quarter")
 """From where pictures may be taken."""
 LARGEST_PICTURE = 32768

@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+BUILTIN = "faces/ada.npz"
+"""The face that is there when no other is named, among the assets."""
+
 _PACKAGE = Path(__file__).resolve().parent
 _CHECKOUT = _PACKAGE.parent.parent
 

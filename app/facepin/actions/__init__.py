@@ -18,7 +18,7 @@ from facepin.actions import (
     series,
     viewing,
 )
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
 from facepin.panels.requests import Request
 
 TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (

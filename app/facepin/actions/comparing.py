@@ -6,7 +6,8 @@ import numpy as np
 
 from facepin.actions.files import POSES
 from facepin.core.errors import FacepinError
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.papers import free_name
 from facepin.files.pose_file import read_pose
 from facepin.panels.requests import (
     AddPane,
@@ -18,7 +19,6 @@ from facepin.panels.requests import (
     SelectPane,
     UseSolver,
 )
-from facepin.papers import free_name
 from facepin.session.reference import random_reference
 from facepin.session.session import Session
 

@@ -4,14 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from facepin.core.quality import LEVELS, level
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.papers import save_picture
 from facepin.files.formats import write_model
 from facepin.files.pose_file import read_pose, write_pose
-from facepin.options import BUILTIN
 from facepin.panels.file_dialog import Kind
 from facepin.panels.requests import CancelLoading, Command, OpenPath, Request
-from facepin.papers import save_picture
-from facepin.resources import resource
+from facepin.resources import BUILTIN, resource
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 

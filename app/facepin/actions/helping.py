@@ -1,6 +1,6 @@
 """How the program is set up, and what explains it; needs no open face."""
 
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
 from facepin.panels.requests import Choose, Command, Request
 from facepin.panels.view import CHOICES, PaletteView
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 from facepin.actions.files import FACES
 from facepin.core.errors import FacepinError
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.opening import Lost
 from facepin.files.drafts import Leftover
 from facepin.files.scene_file import SUFFIX
-from facepin.opening import Lost
 from facepin.panels.requests import Command, DiscardWork, OpenPath, Request, RestoreWork
 
 SCENES = ("Scenes", f"*{SUFFIX}")

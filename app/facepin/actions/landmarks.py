@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from facepin.core.pose import Pin, as_vector
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
 from facepin.files.landmarks_file import SUFFIX, read_landmarks, write_landmarks
 from facepin.panels.requests import Command, OpenPath, Request
 from facepin.session.edit import Edit

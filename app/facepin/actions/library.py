@@ -7,9 +7,9 @@ from facepin.core.errors import FacepinError
 from facepin.core.measures import out_of_range
 from facepin.core.names import clean_name
 from facepin.core.saved_pose import SavedPose
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.library import Library
 from facepin.files.pose_library import replaced
-from facepin.library import Library
 from facepin.panels.library_requests import (
     ApplyPose,
     ComparePoses,

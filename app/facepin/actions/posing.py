@@ -1,6 +1,6 @@
 """The pose as a whole, and the way back."""
 
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
 from facepin.panels.requests import CancelEdit, Command, GoToStep, Request, SetControl
 
 

@@ -5,20 +5,20 @@ from dataclasses import replace
 from math import pi
 from pathlib import Path
 
-from facepin.animation import write_animation
 from facepin.core.errors import FacepinError
 from facepin.core.face_view import face_camera
 from facepin.core.pose import Pose
 from facepin.core.saved_pose import SavedPose
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.papers import free_name
+from facepin.desk.stage import Stage
+from facepin.files.animation import write_animation
 from facepin.files.atomic import atomic_write
 from facepin.gpu.picture import Image, png_bytes
 from facepin.panels.requests import CancelJob, Command, Request
-from facepin.papers import free_name
 from facepin.session.filmstrip import Still, filmstrip
 from facepin.session.job import Job, Steps, beside
 from facepin.sheets import Pane, contact_columns, write_sheet
-from facepin.stage import Stage
 
 CONTACT = (320, 360)
 """Width and height of the pictures of a contact sheet."""

@@ -3,7 +3,7 @@
 from math import radians
 
 from facepin.core.camera import frame_points
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
 from facepin.panels.requests import VIEW_COMMANDS, Command, Request, ShadeAs
 
 STEP = radians(15)

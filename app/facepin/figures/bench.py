@@ -28,8 +28,7 @@ from facepin.figures.compare import context_or_word, progress_line
 from facepin.figures.frame_times import FrameTime, frame_times, frames_as_json, frames_as_table
 from facepin.figures.stand_ins import TABLE_1, stand_in, stand_in_name
 from facepin.files import open_rig
-from facepin.options import BUILTIN
-from facepin.resources import resource
+from facepin.resources import BUILTIN, resource
 from facepin.session.solving import PinSolver, SolverChoice, choose
 
 if TYPE_CHECKING:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from facepin.animation import write_animation
 from facepin.core.arrays import Floats
 from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
@@ -18,6 +17,7 @@ from facepin.core.rig import Rig
 from facepin.figures.compare import progress_line
 from facepin.figures.pictures import Painter
 from facepin.figures.posing import DELIGHT, dragged, handles, named_weights
+from facepin.files.animation import write_animation
 from facepin.options import (
     add_solver,
     count,

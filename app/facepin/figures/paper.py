@@ -14,8 +14,8 @@ from facepin.figures.page import Remake, Table, page
 from facepin.figures.pictures import Painter
 from facepin.figures.stand_ins import TABLE_1, stand_in, stand_in_name
 from facepin.files.atomic import atomic_write
-from facepin.options import BUILTIN, open_with_bar
-from facepin.resources import resource
+from facepin.options import open_with_bar
+from facepin.resources import BUILTIN, resource
 
 if TYPE_CHECKING:
     import moderngl

@@ -10,23 +10,22 @@ from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
-from facepin.keeping import Keeper
-from facepin.library import Library, library_of
-from facepin.opening import Begun, Opener, Opening, SceneOpening
-from facepin.options import BUILTIN
+from facepin.desk.keeping import Keeper
+from facepin.desk.library import Library, library_of
+from facepin.desk.opening import Begun, Opener, Opening, SceneOpening
+from facepin.desk.portraits import Portraits
+from facepin.desk.scenes import Snapshot, shown_over
+from facepin.desk.stage import Stage
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
-from facepin.portraits import Portraits
-from facepin.resources import resource
-from facepin.scenes import Snapshot, shown_over
+from facepin.resources import BUILTIN, resource
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
 from facepin.session.job import Job
 from facepin.session.loading import Loading
 from facepin.session.session import Session
 from facepin.session.solving import SolverChoice
-from facepin.stage import Stage
 
 ChartWriter = Callable[[Session, Path], None]
 

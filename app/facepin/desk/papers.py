@@ -3,12 +3,12 @@
 from pathlib import Path
 
 from facepin.core.camera import Camera, Viewport
+from facepin.desk.stage import Stage
 from facepin.files.atomic import atomic_write
 from facepin.gpu.framing import frame
 from facepin.gpu.picture import png_bytes
 from facepin.panels.view import PaneView
 from facepin.session.drag import DragTool
-from facepin.stage import Stage
 
 
 def free_name(folder: Path, name: str, suffix: str) -> Path:

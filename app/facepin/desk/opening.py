@@ -8,12 +8,12 @@ from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
+from facepin.desk.scenes import RigSource, resume
 from facepin.files import open_rig
 from facepin.files.drafts import Leftover
 from facepin.files.scene_file import SUFFIX, Scene, places, read_scene
 from facepin.panels.view import PaneView
 from facepin.resources import resource
-from facepin.scenes import RigSource, resume
 from facepin.session.edit import Edit
 from facepin.session.loading import Loading
 from facepin.session.session import Session

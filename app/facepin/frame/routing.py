@@ -19,13 +19,13 @@ from facepin.core.events import (
     PointerReleased,
     Scrolled,
 )
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.stage import Stage
 from facepin.panels.requests import PICTURES, Command, OpenPath, Request, command_for
 from facepin.session.edit import Edit
 from facepin.session.navigation import PRESETS, Navigator
 from facepin.session.nudge import goes_on
 from facepin.session.sight import DEAD_ZONE, Pixel, Sight, pin_at
-from facepin.stage import Stage
 
 
 class Router:

@@ -4,10 +4,10 @@ import moderngl
 
 from facepin.core.camera import Viewport
 from facepin.core.quality import Level, level
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.stage import Stage
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvases, TextureMaker
-from facepin.stage import Stage
 
 
 class Painting:

@@ -10,9 +10,9 @@ from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
 from facepin.core.face_view import face_camera
 from facepin.core.pose import Pose
+from facepin.desk.stage import Stage
 from facepin.files.thumbnails import is_writable, mark_of, read_thumbnail, write_thumbnail
 from facepin.gpu.atlas import Atlas, Tile
-from facepin.stage import Stage
 
 SIDE = 192
 """Pixels along each side."""

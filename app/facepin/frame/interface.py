@@ -10,7 +10,8 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.core.shape_motion import movers
-from facepin.desk import Desk
+from facepin.desk.desk import Desk
+from facepin.desk.stage import Stage
 from facepin.files.drafts import Leftover
 from facepin.panels import layout
 from facepin.panels.about import about_window
@@ -38,7 +39,6 @@ from facepin.session.edit import Edit
 from facepin.session.filmstrip import filmstrip
 from facepin.session.mirroring import linked_weights
 from facepin.session.session import Session
-from facepin.stage import Stage
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> list[Request]:

@@ -1,0 +1,1 @@
+"""What lies on the desk: the open rig and what is made of it, kept, and shown."""

@@ -78,9 +78,9 @@ def test_letters_typed_into_it_are_no_shortcuts_and_a_click_beside_it_closes_it(
 
 def test_it_is_called_out_of_a_text_field_too() -> None:
     with running() as app:
-        app.press(1010, 375)  # the search for shapes
-        app.release(1010, 375)
-        app.step(PointerMoved(1010, 376), frames=3)
+        app.press(1010, 307)  # the search for shapes
+        app.release(1010, 307)
+        app.step(PointerMoved(1010, 308), frames=3)
         assert imgui.get_io().want_text_input
         app.step(KeyPressed("w"), frames=2)
         assert not app.desk.view.panes[0].wireframe

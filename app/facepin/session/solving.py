@@ -21,6 +21,8 @@ LARGEST_AMOUNT = LARGEST_WEIGHT**2
 """Of a shape or a combination in a solver's answer: more is beyond what can be drawn."""
 SECOND_LOOKS = 2
 """Times that a solver which starts afresh is asked again, for the face as it is at its last answer."""
+SETTLED = 1e-4
+"""Change of every weight from look to look up to which no further look is needed."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,10 @@ class PinSolver:
                 # Such a start may be far from the answer, and the face another one there.
                 for _ in range(SECOND_LOOKS):
                     again = self._linearised(prepared.problem, weights)
+                    before = weights
                     weights, notes = again.answer(displacement, start)
+                    if np.abs(weights - before).max(initial=0.0) <= SETTLED:
+                        break
         except np.linalg.LinAlgError as error:
             raise FacepinError(f"{kind.title} found no solution for these pins: {error}") from error
         if self.choice.keep_limits and not kind.obeys_limits:

@@ -24,6 +24,7 @@ from facepin.panels.library_requests import (
     SavePose,
 )
 from facepin.panels.requests import Command
+from facepin.resources import resource
 from facepin.session.edit import Edit
 from small_rigs import sheet
 
@@ -368,3 +369,10 @@ def test_without_poses_there_is_no_sheet(rig: Path, tmp_path: Path) -> None:
         assert app.desk.is_error
         assert "no poses" in app.desk.message
         assert app.desk.job is None
+
+
+@pytest.mark.parametrize("name", ["ada", "mira"])
+def test_poses_of_the_program_s_own_faces_are_kept_among_the_settings(name: str, tmp_path: Path) -> None:
+    face = None if name == "ada" else resource("assets", f"faces/{name}.npz")
+    with running(face, size=(500, 400), settings_folder=tmp_path) as app:
+        assert app.desk.library.folder.is_relative_to(tmp_path)

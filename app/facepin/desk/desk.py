@@ -19,7 +19,6 @@ from facepin.desk.stage import Stage
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
-from facepin.resources import BUILTIN, resource
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
 from facepin.session.job import Job
@@ -266,8 +265,7 @@ class Desk:
             raise
         self._put_away()
         self.stage, self.tool, self._open = stage, DragTool(), opening
-        own = rig.source != resource("assets", BUILTIN)
-        self.library = library_of(begun.session, self._settings, own=own)
+        self.library = library_of(begun.session, self._settings, own=not opening.source.asset)
         self.portraits = Portraits(self._ctx, stage)
         file = leftover = None
         moved = False

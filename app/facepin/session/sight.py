@@ -43,7 +43,6 @@ class Sight:
     """How many pins are laid along a stroke; None where a press on the skin places a single pin."""
     beside: bool = False
     """Whether a drag beside the face selects with a rubber band; else it is left to the camera."""
-
     mirror: Mirror | None = None
     """Left and right of the rig, where twins of pins move along."""
 

@@ -33,6 +33,9 @@ def filmstrip_window(
     width = min(6 * (side + gap), 0.62 * imgui.get_main_viewport().work_size.x)
     size = imgui.ImVec2(width, side + 4.2 * line + imgui.get_style().scrollbar_size)
     imgui.set_next_window_size(size, imgui.Cond_.first_use_ever)
+    work, inset = imgui.get_main_viewport(), 12 * scale
+    below = imgui.ImVec2(work.work_pos.x + inset, work.work_pos.y + work.work_size.y - inset)
+    imgui.set_next_window_pos(below, imgui.Cond_.first_use_ever, imgui.ImVec2(0, 1))  # not over the face
     opened, stays = imgui.begin(TITLE, True)
     asked: Command | None = None
     if opened:

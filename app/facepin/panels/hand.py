@@ -104,7 +104,7 @@ def sketch_hint(count: int, habit: Habit, viewport: Viewport, pixel_ratio: float
 def symmetry_sign(viewport: Viewport, pixel_ratio: float, scale: float) -> None:
     """Say in a corner of the picture that what is done to one side is done to both."""
     text = "Symmetry"
-    size, pad = imgui.calc_text_size(text), 5 * scale
+    size, pad = imgui.calc_text_size(text), 8 * scale
     right = (viewport.x + viewport.width) / pixel_ratio - 8 * scale
     bottom = (viewport.y + viewport.height) / pixel_ratio - 8 * scale
     # Two wings and the line between them.
@@ -112,7 +112,7 @@ def symmetry_sign(viewport: Viewport, pixel_ratio: float, scale: float) -> None:
     wide = size.x + 2.6 * wing + 3 * pad
     corner = imgui.ImVec2(right - wide, bottom - size.y - 2 * pad)
     draw = imgui.get_background_draw_list()
-    draw.add_rect_filled(corner, imgui.ImVec2(right, bottom), packed((0, 0, 0, 0.5)), 4 * scale)
+    draw.add_rect_filled(corner, imgui.ImVec2(right, bottom), packed(tinted(PICTURE.popup, VEIL)), 4 * scale)
     x, y = corner.x + pad + 1.3 * wing, bottom - pad - size.y / 2
     accent = packed(PICTURE.accent)
     for side in (-1, 1):
@@ -143,7 +143,11 @@ def hidden_pins(
     )
     for index, colour in _OVER_PICTURE.items():
         imgui.push_style_color(index, imgui.ImVec4(*colour))
+    imgui.push_style_var(imgui.StyleVar_.window_padding, imgui.ImVec2(8 * scale, 4 * scale))
+    imgui.push_style_var(imgui.StyleVar_.window_rounding, 4 * scale)
+    imgui.push_style_var(imgui.StyleVar_.window_border_size, 0.0)
     imgui.begin("##hidden pins", None, flags)
+    imgui.pop_style_var(3)
     imgui.align_text_to_frame_padding()
     key = key_of(Command.SHOW_PINS, habit)
     imgui.text_disabled(f"{count} pin{'' if count == 1 else 's'} hidden")

@@ -12,6 +12,7 @@ from facepin.core.rig import Rig
 from facepin.panels.icons import eye_button, icon_width, lock_button
 from facepin.panels.requests import Command, NamePin, Request, SelectPins, SetPins
 from facepin.panels.theme import Theme
+from facepin.panels.tiles import shortened
 
 FAR = 1.0
 """A pin further from its goal than this, in per cent of the face height, stands out."""
@@ -200,8 +201,9 @@ def _name(pins: tuple[Pin, ...], row: int, selected: Collection[int], view: Pins
     imgui.push_style_var(imgui.StyleVar_.selectable_text_align, imgui.ImVec2(0, 0.5))
     colour = imgui.get_style_color_vec4(imgui.Col_.text_disabled if pin.hidden else imgui.Col_.text)
     imgui.push_style_color(imgui.Col_.text, colour)
+    shown = shortened(pin.title, imgui.get_content_region_avail().x)
     size = imgui.ImVec2(0, imgui.get_frame_height())
-    clicked, _ = imgui.selectable(f"{pin.title}###row", pin.vertex in selected, flags, size)
+    clicked, _ = imgui.selectable(f"{shown}###row", pin.vertex in selected, flags, size)
     imgui.pop_style_color()
     imgui.pop_style_var()
     imgui.set_item_tooltip(f"{pin.title}\nDouble click: another name")

@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.pose import Pin
+from facepin.panels import layout
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.requests import Command, key_of
 from facepin.panels.theme import PICTURE, VEIL, Colour, packed, tinted
@@ -132,21 +133,12 @@ def hidden_pins(
     )
     imgui.set_next_window_pos(corner, imgui.Cond_.always, imgui.ImVec2(0, 1))
     imgui.set_next_window_bg_alpha(VEIL)
-    flags = (
-        imgui.WindowFlags_.no_decoration
-        | imgui.WindowFlags_.always_auto_resize
-        | imgui.WindowFlags_.no_saved_settings
-        | imgui.WindowFlags_.no_docking
-        | imgui.WindowFlags_.no_move
-        | imgui.WindowFlags_.no_focus_on_appearing
-        | imgui.WindowFlags_.no_bring_to_front_on_focus
-    )
     for index, colour in _OVER_PICTURE.items():
         imgui.push_style_color(index, imgui.ImVec4(*colour))
     imgui.push_style_var(imgui.StyleVar_.window_padding, imgui.ImVec2(8 * scale, 4 * scale))
     imgui.push_style_var(imgui.StyleVar_.window_rounding, 4 * scale)
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 0.0)
-    imgui.begin("##hidden pins", None, flags)
+    imgui.begin("##hidden pins", None, layout.SIGN)
     imgui.pop_style_var(3)
     imgui.align_text_to_frame_padding()
     key = key_of(Command.SHOW_PINS, habit)

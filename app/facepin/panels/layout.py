@@ -11,6 +11,16 @@ LIBRARY = "Poses"
 PANEL_WIDTH = 330.0
 SOLVER_HEIGHT = 258.0
 """First sizes of the docked panels, in pixels at 1x scale."""
+SIGN = (
+    imgui.WindowFlags_.no_decoration
+    | imgui.WindowFlags_.always_auto_resize
+    | imgui.WindowFlags_.no_saved_settings
+    | imgui.WindowFlags_.no_docking
+    | imgui.WindowFlags_.no_move
+    | imgui.WindowFlags_.no_focus_on_appearing
+    | imgui.WindowFlags_.no_bring_to_front_on_focus
+)
+"""What a small window over the picture is like: it stays where it is put, behind everything else."""
 FACE_ASPECT = 0.75
 """Width over height of a pane that a face fills well."""
 

@@ -5,6 +5,7 @@ import dataclasses
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
+from facepin.panels import layout
 from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import ClosePane, KeepPane, Request, SelectPane, UseSolver
 from facepin.panels.theme import PICTURE, VEIL, Colour, packed
@@ -84,20 +85,11 @@ def pane_title(
         imgui.ImVec2(0, 0), imgui.ImVec2(max(right - left - 8 * scale, 1), max(bottom - top, 1))
     )
     imgui.set_next_window_bg_alpha(VEIL)
-    flags = (
-        imgui.WindowFlags_.no_decoration
-        | imgui.WindowFlags_.always_auto_resize
-        | imgui.WindowFlags_.no_saved_settings
-        | imgui.WindowFlags_.no_docking
-        | imgui.WindowFlags_.no_move
-        | imgui.WindowFlags_.no_focus_on_appearing
-        | imgui.WindowFlags_.no_bring_to_front_on_focus
-    )
     asked: list[Request] = []
     for index, of_picture in _COLOURS.items():
         imgui.push_style_color(index, imgui.ImVec4(*of_picture))
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 0)
-    imgui.begin(f"##pane {at}", None, flags)
+    imgui.begin(f"##pane {at}", None, layout.SIGN)
     imgui.pop_style_var()
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     if imgui.small_button(f"{pane.choice.kind.title}##title"):

@@ -95,7 +95,8 @@ def _window(options: Namespace) -> None:
     settings = user_config_path("facepin", appauthor=False)
     remembered = read_preferences(settings / "preferences.json")[0].solver
     keys = options.compare or options.solver or (remembered if remembered in SOLVERS else "transpose")
-    choices = solver_choices(keys, [], False)
+    # Who poses a face wants one that can be made; who compares solvers wants them as they are.
+    choices = solver_choices(keys, [], keep_limits=not options.compare)
     if len(choices) > MOST_PANES:
         raise FacepinError(f"{len(choices)} solvers do not fit side by side, {MOST_PANES} do: '{keys}'")
     start = Start(

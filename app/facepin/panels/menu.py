@@ -145,7 +145,7 @@ def _compare(view: View, session: Session) -> Request | None:
     if imgui.begin_menu("Add a pane", len(session.panes) < MOST_PANES):
         for key, kind in SOLVERS.items():
             if imgui.menu_item_simple(kind.title):
-                asked = AddPane(choose(key))
+                asked = AddPane(choose(key, keep_limits=session.pane.choice.keep_limits))
         imgui.end_menu()
     several = len(session.panes) > 1
     if imgui.menu_item_simple("Keep the selected pane", enabled=several):

@@ -116,7 +116,13 @@ def _solvers(view: View, session: Session) -> list[Entry]:
         for key, other in SOLVERS.items()
     ]
     found += [
-        Entry(f"Add a pane: {other.title}", "Compare", AddPane(choose(key)), other.summary, reason=full)
+        Entry(
+            f"Add a pane: {other.title}",
+            "Compare",
+            AddPane(choose(key, keep_limits=keep)),
+            other.summary,
+            reason=full,
+        )
         for key, other in SOLVERS.items()
     ]
     found += [

@@ -13,6 +13,7 @@ from facepin.core.events import PointerMoved
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, UseSolver
+from facepin.resources import resource
 from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose
 
@@ -117,3 +118,32 @@ def test_a_solver_is_found_again_with_its_settings() -> None:
             app.ask(request)
             app.step(PointerMoved(5, 5), frames=2)
         assert app.desk.view.panes[0].choices["tikhonov"] == changed
+
+
+def test_a_path_that_cannot_be_written_can_be_typed_again(tmp_path: Path) -> None:
+    with running(size=(500, 400)) as app:
+        app.ask(Command.SAVE_POSE)
+        asked = app.desk.dialog
+        for path in (tmp_path / "no folder" / "a.json", tmp_path / f"{'x' * 300}.json"):
+            asked._finish(path)
+            app.step(PointerMoved(5, 5), frames=2)
+            assert app.desk.is_error
+            assert app.desk.dialog is asked
+            assert not asked.finished
+        asked._finish(tmp_path / "a.json")
+        app.step(PointerMoved(6, 6), frames=2)
+        assert app.desk.dialog is None
+        assert (tmp_path / "a.json").exists()
+
+
+def test_an_answer_that_comes_after_another_face_saves_nothing(tmp_path: Path) -> None:
+    with running(size=(500, 400)) as app:
+        app.ask(Command.SAVE_AS)
+        asked = app.desk.dialog
+        before = app.session
+        app.desk.open(resource("assets", "faces/bruno.npz"))
+        app.until(lambda: app.session is not before)
+        asked._finish(tmp_path / "a.facepin")
+        app.step(PointerMoved(5, 5), frames=2)
+        assert "another face" in app.desk.message
+        assert not list(tmp_path.iterdir())

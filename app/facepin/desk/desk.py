@@ -161,8 +161,12 @@ class Desk:
         if self.dialog is not None and self.dialog.finished:
             dialog, self.dialog = self.dialog, None
             if dialog.path is not None:
+                self.say("")
                 with self.reporting():
                     self._then(dialog.path)
+                if self.is_error and self.dialog is None and dialog.can_ask_again:
+                    dialog.ask_again(self.message)
+                    self.dialog = dialog
 
         if (job := self.job) is not None:
             self.job = None  # unless it goes on
@@ -330,7 +334,14 @@ class Desk:
         if self.dialog is not None:
             raise FacepinError("another question for a file waits for its answer")
         self.dialog = FileDialog(kind, command.title.rstrip("…"), start, filters, use_native=self._native)
-        self._then = then
+        session = self.session
+
+        def answered(path: Path) -> None:
+            if kind == "save file" and self.session is not session:
+                raise FacepinError("another face was opened meanwhile, so nothing was saved: save it anew")
+            then(path)
+
+        self._then = answered
 
     def sync(self) -> None:
         """Let what depends on the work follow it: selected pins, the library's files, the panes' looks.

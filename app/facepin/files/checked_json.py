@@ -67,6 +67,9 @@ class JsonObject:
             or (count is not None and len(found) != count)
             or not _all_finite(found)
         ):
+            if isinstance(found, list) and (count is None or len(found) == count):
+                wrong = next(value for value in found if not _all_finite([value]))
+                raise FacepinError(f"{self.place(key)} holds {_short(wrong)}, allowed: finite numbers")
             self.refuse(key, f"a list of {'' if count is None else f'{count} '}finite numbers")
         return [float(value) for value in found]
 

@@ -92,7 +92,10 @@ class FileDialog:
             "##typed", self._typed, imgui.InputTextFlags_.enter_returns_true
         )
         imgui.align_text_to_frame_padding()
+        room = imgui.get_content_region_avail().x - 13 * imgui.get_font_size()
+        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + max(room, 8 * imgui.get_font_size()))
         imgui.text_disabled(self._remark)
+        imgui.pop_text_wrap_pos()
         width = 6 * imgui.get_font_size()
         gap = imgui.get_style().item_spacing.x
         imgui.same_line(imgui.get_window_width() - 2 * width - gap - imgui.get_style().window_padding.x)
@@ -103,6 +106,16 @@ class FileDialog:
         if (imgui.button(word, imgui.ImVec2(width, 0)) or entered) and self._typed.strip():
             self._take(_typed_path(self._typed))
         imgui.end()
+
+    @property
+    def can_ask_again(self) -> bool:
+        """Whether it is ours to show: those of the platform are gone once they are answered."""
+        return self._native is None
+
+    def ask_again(self, remark: str) -> None:
+        """Show the question once more with the path as it was typed, and why it was no good."""
+        self.finished, self.path, self._replaces = False, None, None
+        self._remark, self._fresh = remark, True
 
     def _take(self, path: Path) -> None:
         """Take the typed path for the answer, unless it would replace a file and nobody said yes to that."""

@@ -41,7 +41,9 @@ class Motion:
         self._pixel = pixel
         self._reference: Points | None = None
         self._moved: Mask = np.zeros(len(self._weld), np.bool_)
-        self._free: Mask = np.zeros((len(self._weld), 1), np.bool_)
+        self._fixed: NDArray[np.intp] = np.arange(len(self._weld))
+        """Vertices that count as still, and (their number, 3) where they are drawn."""
+        self._places: Points = np.zeros((len(self._weld), 3), np.float32)
         self._hopeless = False
 
     def follow(self, positions: Points) -> bool:
@@ -61,20 +63,22 @@ class Motion:
             self._reference = positions
         if self._hopeless or positions is self._reference:
             return False
+        if self.still:
+            strayed = np.abs(positions.take(self._fixed, axis=0) - self._places)
+            if not (strayed > VISIBLE * self._pixel).any():
+                return False
         moves = np.abs(positions - self._reference)
-        if self.still and not ((moves > VISIBLE * self._pixel) & ~self._free).any():
-            return False
         self._moved |= (moves > SLIGHT * VISIBLE * self._pixel).any(axis=1)
         self._sort()
-        self._reference = positions
+        self._reference, self._places = positions, positions.take(self._fixed, axis=0)
         return True
 
     def settled(self, positions: Points) -> Points:
         """Return positions (n, 3) with still vertices exactly where they were: nothing gapes beside them."""
         if not self.still or positions is self._reference:
             return positions
-        assert self._reference is not None, "set before anything is still"
-        settled: Points = np.where(self._free, positions, self._reference)
+        settled = positions.copy()
+        settled[self._fixed] = self._places
         return settled
 
     def _sort(self) -> None:
@@ -87,7 +91,7 @@ class Motion:
         for corner in self._corners:
             lit[corner[touched]] = True
         moving = self._touched(lit)
-        self._free = lit[self._weld][:, None]
+        self._fixed = np.flatnonzero(~lit[self._weld])
         self._hopeless = not self._runs or bool(np.count_nonzero(moving) > WORTHWHILE * len(moving))
         if self._hopeless:
             self.moving, self.still, self.triangles = self._runs, (), self._triangles

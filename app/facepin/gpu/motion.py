@@ -12,7 +12,7 @@ from facepin.gpu.materials import Run
 
 VISIBLE = 0.25
 """Largest move, in pixels, of what counts as still: shapes in files move a little what they need not."""
-SLIGHT = 0.25
+SLIGHT = 0.6
 """Share of that from which on a vertex counts as moving when triangles are sorted anew: it will move more."""
 WORTHWHILE = 0.8
 """Share of moving triangles above which sorting them out is not worth it."""

@@ -437,6 +437,10 @@ def test_names_are_unique_and_landmarks_come_back_on_the_vertices(app: App, tmp_
     assert app.desk.is_error
     assert "vertices" in app.desk.message
     assert app.session.work is loaded
+    assert app.desk.dialog is not None  # it asks again
+    app.desk.dialog.close()
+    app.step(PointerMoved(5, 5), frames=2)
+    assert app.desk.dialog is None
 
 
 def answer(app: App, command: Command, path: Path) -> None:

@@ -579,6 +579,19 @@ def test_the_list_selects_locks_hides_and_renames(app: App) -> None:
     assert pins_of(app)[first].name == "lip corner"
 
 
+def test_the_list_is_open_while_panes_come_and_go(app: App) -> None:
+    open_list(app)
+    for kind in ("sparse", "transpose"):
+        app.ask(AddPane(choose(kind)))
+    app.step(PointerMoved(*BESIDE), frames=3)
+    assert app.session.active == 2
+    assert len(app.frame.viewports) == 3
+    app.key("z", control=True)
+    app.key("z", control=True, shift=True)
+    app.step(PointerMoved(*BESIDE), frames=3)
+    assert len(app.frame.viewports) == 3
+
+
 def test_the_list_is_there_with_no_pins_and_with_sixty(app: App) -> None:
     open_list(app)
     app.ask(RemovePins(frozenset(vertices_of(app))))

@@ -363,6 +363,8 @@ class Desk:
         self.cameras = [camera if self.view.linked else own for own, _ in looks]
         self.view.panes = [view for _, view in looks]
         self._numbers = numbers
+        if self.stage is not None:
+            self.stage.update()  # panels may ask where a new pane's vertices are before it is drawn
 
     def reporting(self) -> "_Reporting":
         """Show what goes wrong inside a `with` block in the status line; bugs pass through."""

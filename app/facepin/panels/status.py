@@ -45,6 +45,8 @@ def status_line(
             imgui.text_disabled(
                 f"{rig.vertex_count:,} vertices   {len(rig.triangles):,} triangles   {rig.shape_count} shapes"
             )
+        else:
+            imgui.text_disabled("No face is open")
         if warnings:
             imgui.same_line()
             count = f"{len(warnings)} warning" + ("s" if len(warnings) > 1 else "")

@@ -29,9 +29,10 @@ def filmstrip_window(
         Pixels per pixel of a 1x screen.
     """
     side, gap = SIDE * scale, imgui.get_style().item_spacing.x
-    line = imgui.get_text_line_height_with_spacing()
     width = min(6 * (side + gap), 0.62 * imgui.get_main_viewport().work_size.x)
-    size = imgui.ImVec2(width, side + 4.2 * line + imgui.get_style().scrollbar_size)
+    style = imgui.get_style()
+    around = imgui.get_frame_height() + imgui.get_frame_height_with_spacing() + 2 * style.window_padding.y
+    size = imgui.ImVec2(width, around + _strip_height(side) + style.scrollbar_size)
     imgui.set_next_window_size(size, imgui.Cond_.first_use_ever)
     work, inset = imgui.get_main_viewport(), 12 * scale
     below = imgui.ImVec2(work.work_pos.x + inset, work.work_pos.y + work.work_size.y - inset)
@@ -60,7 +61,7 @@ def _strip(stills: Sequence[Still], tile: Callable[[Floats], Tile | None], side:
     """Draw the pictures in one row; those out of sight are not asked for."""
     draw = imgui.get_window_draw_list()
     step = side + imgui.get_style().item_spacing.x
-    height = side + 1.3 * imgui.get_text_line_height()
+    height = _strip_height(side)
     left = imgui.get_cursor_screen_pos()
     first = max(int(imgui.get_scroll_x() // step), 0)
     last = min(int((imgui.get_scroll_x() + imgui.get_window_width()) // step) + 1, len(stills))
@@ -80,5 +81,10 @@ def _strip(stills: Sequence[Still], tile: Callable[[Floats], Tile | None], side:
         imgui.set_item_tooltip(f"{still.label}\n{len(still.pose.pins)} pins")
     imgui.set_cursor_screen_pos(imgui.ImVec2(left.x, left.y))
     imgui.dummy(imgui.ImVec2(len(stills) * step, height))
-    if imgui.get_scroll_max_x() > 0 and imgui.is_window_appearing():
-        imgui.set_scroll_here_x(1.0)
+    if imgui.get_scroll_x() >= imgui.get_scroll_max_x():  # new steps stay in sight until one scrolls back
+        imgui.set_scroll_x(len(stills) * step)
+
+
+def _strip_height(side: float) -> float:
+    """Of a picture and its label."""
+    return side + 1.3 * imgui.get_text_line_height()

@@ -202,7 +202,7 @@ def test_opening_can_be_cancelled(narrow: Path) -> None:
     with running(wait=False) as app:
         app.until(lambda: app.desk.stage is not None)
         rig = app.session.rig
-        app.desk.open(narrow)
+        app.desk.opener.open(narrow)
         app.desk.loading.cancel()
         app.until(lambda: app.desk.loading is None)
         assert app.session.rig is rig

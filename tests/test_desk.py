@@ -141,9 +141,10 @@ def test_an_answer_that_comes_after_another_face_saves_nothing(tmp_path: Path) -
         app.ask(Command.SAVE_AS)
         asked = app.desk.dialog
         before = app.session
-        app.desk.open(resource("assets", "faces/bruno.npz"))
+        app.desk.opener.open(resource("assets", "faces/bruno.npz"))
         app.until(lambda: app.session is not before)
         asked._finish(tmp_path / "a.facepin")
         app.step(PointerMoved(5, 5), frames=2)
-        assert "another face" in app.desk.message
+        assert "Another face" in app.desk.message
         assert not list(tmp_path.iterdir())
+        assert app.desk.dialog is None  # whatever path is typed, it would be no better

@@ -277,6 +277,7 @@ def test_a_scene_whose_rig_is_gone_waits_until_it_is_shown(rig: Path, tmp_path: 
         set_first(app, 0.5)
         answer(app, Command.SAVE_AS, scene)
     moved.rename(tmp_path / "elsewhere.npz")
+    (broken := tmp_path / "broken.npz").write_bytes(b"not a face")
     for show in (
         lambda app: app.step(FilesDropped((tmp_path / "elsewhere.npz",)), frames=2),
         lambda app: answer(app, Command.LOCATE_RIG, tmp_path / "elsewhere.npz"),
@@ -294,7 +295,10 @@ def test_a_scene_whose_rig_is_gone_waits_until_it_is_shown(rig: Path, tmp_path: 
             app.ask(CancelLoading())
             assert app.desk.opener.lost is None
             app.ask(OpenPath(scene))
-            show(app)
+            app.ask(OpenPath(broken))
+            app.until(lambda: app.desk.opener.loading is None)
+            assert "broken.npz" in app.desk.message
+            show(app)  # the scene waits still
             opened(app)
             assert app.session.pose.weights[0] == 0.5
             assert app.desk.title == "one.facepin* - elsewhere - Facepin"  # the scene says otherwise yet

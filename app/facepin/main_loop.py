@@ -140,7 +140,7 @@ def _loop(
             desk.say(problem, error=True)
     with desk.reporting():
         rig = start.rig or resource("assets", BUILTIN)
-        desk.open(rig, start.first_pose, solve=start.solve_first, neutral=start.neutral)
+        desk.opener.open(rig, start.first_pose, solve=start.solve_first, neutral=start.neutral)
     viewport = Viewport(0, 0, *window.size)
     viewports: tuple[Viewport, ...] = (viewport,)
     desk.viewport = viewport

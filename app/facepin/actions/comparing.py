@@ -47,8 +47,7 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.FORGET_REFERENCE:
             session.set_reference(None)
         case Command.REFERENCE_FROM_FILE:
-            folder = Path.home() if desk.opened is None else desk.opened.parent
-            desk.ask("open file", request, folder, POSES, lambda path: _read_reference(desk, path))
+            desk.ask("open file", request, desk.folder, POSES, lambda path: _read_reference(desk, path))
         case Command.SAVE_CHART:
             _save_chart(desk, session)
             return True

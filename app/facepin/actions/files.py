@@ -27,15 +27,14 @@ def act(request: Request, desk: Desk) -> bool:
         case OpenPath(path) if path.suffix.lower() in (".json", ".csv") and session is not None:
             load_pose(desk, session, path)
         case OpenPath(path):
-            desk.open(path)
+            desk.opener.open(path)
         case CancelLoading():
             desk.opener.cancel()
         case Command.OPEN_BUILTIN:
-            desk.open(resource("assets", BUILTIN))
+            desk.opener.open(resource("assets", BUILTIN))
         case Command.OPEN_FILE | Command.OPEN_FOLDER:
-            start = Path.home() if desk.opened is None else desk.opened.parent
             kind: Kind = "open file" if request is Command.OPEN_FILE else "open folder"
-            desk.ask(kind, request, start, ALL if kind == "open file" else (), desk.open)
+            desk.ask(kind, request, desk.folder, ALL if kind == "open file" else (), desk.opener.open)
         case Command.LOAD_POSE | Command.SAVE_POSE | Command.EXPORT if session is not None:
             desk.say("")
             _ask_for(request, desk, session)
@@ -62,7 +61,7 @@ def load_pose(desk: Desk, session: Session, path: Path) -> None:
 
 def _ask_for(command: Command, desk: Desk, session: Session) -> None:
     """Ask which file to load or write, then do so with what is open by then."""
-    folder = Path.home() if desk.opened is None else desk.opened.parent
+    folder = desk.folder
 
     def answered(do: Callable[[Desk, Session, Path], None]) -> Callable[[Path], None]:
         def then(path: Path) -> None:

@@ -30,8 +30,7 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.SAVE if desk.session is not None and desk.keeper.file is not None:
             _save(desk, desk.keeper.file)
         case Command.SAVE | Command.SAVE_AS if desk.session is not None:
-            folder = Path.home() if desk.opened is None else desk.opened.parent
-            suggested = desk.keeper.file or folder / f"{desk.session.rig.name}{SUFFIX}"
+            suggested = desk.keeper.file or desk.folder / f"{desk.session.rig.name}{SUFFIX}"
             desk.ask("save file", request, suggested, SCENES, lambda path: _save_as(desk, path))
         case Command.UNSAVED_WORK:
             desk.view.recovery.shown = not desk.view.recovery.shown

@@ -19,7 +19,7 @@ def act(request: Request, desk: Desk) -> bool:
     session = desk.session
     if session is None:
         return False
-    file = (Path.home() if desk.opened is None else desk.opened.parent) / f"{session.rig.name}{SUFFIX}"
+    file = desk.folder / f"{session.rig.name}{SUFFIX}"
     match request:
         case OpenPath(path) if path.name.lower().endswith(SUFFIX):
             _load(desk, path)

@@ -66,8 +66,7 @@ def act(request: Request, desk: Desk) -> bool:
         case ComparePoses(first, second):
             _compare(desk, session, library.pose(first), library.pose(second))
         case Command.TAKE_POSES:
-            start = Path.home() if desk.opened is None else desk.opened.parent
-            desk.ask("open folder", request, start, (), lambda folder: _take_from(desk, folder))
+            desk.ask("open folder", request, desk.folder, (), lambda folder: _take_from(desk, folder))
         case _:
             return False
     return True

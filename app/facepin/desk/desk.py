@@ -1,6 +1,7 @@
 """What lies on the desk: the open rig, cameras on it, files being opened or asked for."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import moderngl
@@ -8,7 +9,6 @@ import numpy as np
 
 from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
-from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk.keeping import Keeper
 from facepin.desk.library import Library, library_of
@@ -75,7 +75,6 @@ class Desk:
         self.job: Job | None = None
         """What is being made beside the work."""
         self.opener = Opener()
-        self.dialog: FileDialog | None = None
         self.message = ""
         self.is_error = False
         self.opened: Path | None = None
@@ -92,8 +91,7 @@ class Desk:
         self._choices = choices
         self._native = native_dialogs
         self._settings = settings
-        self._then: Callable[[Path], None] = self.open
-        """What the open dialog is for."""
+        self._question: _Question | None = None
         self._open: Opening | None = None
         """How what is open was opened."""
         self._numbers = [0]
@@ -138,36 +136,27 @@ class Desk:
             return f"{self.session.rig.name}{star} - Facepin"
         return f"{self.keeper.file.name}{star} - {self.session.rig.name} - Facepin"
 
+    @property
+    def dialog(self) -> FileDialog | None:
+        """The dialog that waits for an answer, if any."""
+        return self._question.dialog if self._question else None
+
+    @property
+    def folder(self) -> Path:
+        """Where to look for files first: beside what was opened last."""
+        return Path.home() if self.opened is None else self.opened.parent
+
     def say(self, message: str, *, error: bool = False) -> None:
         """Show a message in the status line until the next one."""
         self.message, self.is_error = message, error
-
-    def open(
-        self,
-        path: Path,
-        first_pose: Callable[[Rig], Pose] | None = None,
-        *,
-        solve: bool = False,
-        neutral: str | None = None,
-    ) -> None:
-        """Start opening a rig or a scene, see `Opener.open`; `poll` puts it on the desk when it is there."""
-        self.opener.open(path, first_pose, solve=solve, neutral=neutral)
 
     def poll(self) -> None:
         """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""
         with self.reporting():
             if (found := self.opener.take()) is not None:
                 self._show(*found)
-        if self.dialog is not None and self.dialog.finished:
-            dialog, self.dialog = self.dialog, None
-            if dialog.path is not None:
-                self.say("")
-                with self.reporting():
-                    self._then(dialog.path)
-                if self.is_error and self.dialog is None and dialog.can_ask_again:
-                    dialog.ask_again(self.message)
-                    self.dialog = dialog
-
+        if self._question is not None and self._question.dialog.finished:
+            self._take_answer(self._question)
         if (job := self.job) is not None:
             self.job = None  # unless it goes on
             with self.reporting():
@@ -176,6 +165,22 @@ class Desk:
                     self.job = job
                 else:
                     self.say(came_of_it)
+
+    def _take_answer(self, question: "_Question") -> None:
+        """Do what the question was asked for; ask once more for a path that is no good."""
+        self._question = None
+        dialog = question.dialog
+        if dialog.path is None:
+            return
+        if question.saves and self.session is not question.session:
+            self.say("Another face was opened meanwhile, so nothing was saved: save it anew", error=True)
+            return
+        self.say("")
+        with self.reporting():
+            question.then(dialog.path)
+        if self.is_error and self._question is None and dialog.can_ask_again:
+            dialog.ask_again(self.message)
+            self._question = question
 
     def start(self, job: Job) -> None:
         """Begin something long; `poll` takes its steps.
@@ -236,8 +241,8 @@ class Desk:
     def release(self) -> None:
         """Give everything back."""
         self.opener.cancel()
-        if self.dialog is not None:
-            self.dialog.close()
+        if self._question is not None:
+            self._question.dialog.close()
         self._put_away()
 
     def _put_away(self) -> None:
@@ -274,7 +279,7 @@ class Desk:
         file = leftover = None
         moved = False
         if isinstance(opening, SceneOpening):
-            file, leftover, moved = opening.file, opening.leftover, opening.moved
+            file, leftover, moved = opening.file, opening.leftover, opening.lost is not None
         self.keeper.begin(begun.session, file, leftover, saved=not moved)
         self._look_at(begun, stage)
         if leftover is None and (file or not opening.source.asset):
@@ -331,17 +336,10 @@ class Desk:
         FacepinError
             When another question is still open.
         """
-        if self.dialog is not None:
+        if self._question is not None:
             raise FacepinError("another question for a file waits for its answer")
-        self.dialog = FileDialog(kind, command.title.rstrip("…"), start, filters, use_native=self._native)
-        session = self.session
-
-        def answered(path: Path) -> None:
-            if kind == "save file" and self.session is not session:
-                raise FacepinError("another face was opened meanwhile, so nothing was saved: save it anew")
-            then(path)
-
-        self._then = answered
+        dialog = FileDialog(kind, command.title.rstrip("…"), start, filters, use_native=self._native)
+        self._question = _Question(dialog, then, kind == "save file", self.session)
 
     def sync(self) -> None:
         """Let what depends on the work follow it: selected pins, the library's files, the panes' looks.
@@ -369,6 +367,19 @@ class Desk:
     def reporting(self) -> "_Reporting":
         """Show what goes wrong inside a `with` block in the status line; bugs pass through."""
         return _Reporting(self)
+
+
+@dataclass(frozen=True, eq=False)
+class _Question:
+    """A question for a path that waits for its answer."""
+
+    dialog: FileDialog
+    then: Callable[[Path], None]
+    """What the answer is for."""
+    saves: bool
+    """The answer is where to write what was open."""
+    session: Session | None
+    """What was open."""
 
 
 class _Reporting:

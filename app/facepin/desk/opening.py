@@ -63,34 +63,6 @@ class RigOpening:
 
 
 @dataclass(frozen=True, eq=False)
-class SceneOpening:
-    """A scene, or unsaved work that was left over."""
-
-    scene: Scene
-    file: Path | None
-    """The scene's file, if it has one."""
-    source: RigSource
-    leftover: Leftover | None = None
-    moved: bool = False
-    """The rig was not where the scene says, the user showed where it is."""
-
-    def begin(self, rig: Rig, choices: Sequence[SolverChoice]) -> Begun:
-        """Return the session that the scene holds.
-
-        Raises
-        ------
-        FacepinError
-            When the scene makes no sense on any rig.
-        """
-        found = resume(self.scene, rig)
-        session = Session.resumed(rig, found.work, found.active)
-        return Begun(session, found.cameras, found.views, found.linked, found.report)
-
-
-Opening = RigOpening | SceneOpening
-
-
-@dataclass(frozen=True, eq=False)
 class Lost:
     """A scene whose rig is nowhere to be found."""
 
@@ -106,6 +78,34 @@ class Lost:
         what = self.file.name if self.file else "the unsaved work"
         looked = " and ".join(str(path) for path in self.looked)
         return f"{what}: its rig {self.scene.rig.name} was not found, looked for {looked}"
+
+
+@dataclass(frozen=True, eq=False)
+class SceneOpening:
+    """A scene, or unsaved work that was left over."""
+
+    scene: Scene
+    file: Path | None
+    """The scene's file, if it has one."""
+    source: RigSource
+    leftover: Leftover | None = None
+    lost: Lost | None = None
+    """What waited for the rig, where the user showed it: it was not where the scene says."""
+
+    def begin(self, rig: Rig, choices: Sequence[SolverChoice]) -> Begun:
+        """Return the session that the scene holds.
+
+        Raises
+        ------
+        FacepinError
+            When the scene makes no sense on any rig.
+        """
+        found = resume(self.scene, rig)
+        session = Session.resumed(rig, found.work, found.active)
+        return Begun(session, found.cameras, found.views, found.linked, found.report)
+
+
+Opening = RigOpening | SceneOpening
 
 
 class Opener:
@@ -168,7 +168,7 @@ class Opener:
         if self.lost is not None:
             lost = self.lost
             source = source_of(path, lost.scene.rig.neutral)
-            self._load(SceneOpening(lost.scene, lost.file, source, lost.leftover, moved=True))
+            self._load(SceneOpening(lost.scene, lost.file, source, lost.leftover, lost))
 
     def cancel(self) -> None:
         """Give up what is being read, or waited for."""
@@ -187,8 +187,13 @@ class Opener:
         if self.loading is None or not self.loading.finished:
             return None
         loading, self.loading = self.loading, None
-        rig = loading.result()
-        return None if rig is None or self._coming is None else (rig, self._coming)
+        opening, rig = self._coming, None
+        try:
+            rig = loading.result()
+        finally:
+            if rig is None and isinstance(opening, SceneOpening):
+                self.lost = opening.lost  # another file may do
+        return None if rig is None or opening is None else (rig, opening)
 
     def _load(self, opening: Opening) -> None:
         self.cancel()

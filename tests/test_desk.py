@@ -12,7 +12,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.events import PointerMoved
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
-from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, UseSolver
+from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, SetControl, UseSolver
 from facepin.resources import resource
 from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose
@@ -115,9 +115,26 @@ def test_a_solver_is_found_again_with_its_settings() -> None:
         choice = app.session.pane.choice
         changed = replace(choice, settings=replace(choice.settings, alpha=0.5))
         for request in (UseSolver(0, changed), UseSolver(0, choose("transpose"))):
+            app.ask(request)  # no panel has been drawn between: they need not be open
+        shown = app.desk.view.panes[0]
+        assert shown.choice("tikhonov", app.session.pane.choice) == changed
+        assert shown.choice("hybrid", app.session.pane.choice) == choose("hybrid")
+
+
+def test_what_was_wrong_with_one_step_is_not_said_of_the_next() -> None:
+    with running() as app:
+        locked = np.zeros(app.session.rig.shape_count, bool)
+        locked[0] = True
+        app.ask(SetControl("Lock", replace(app.session.control, locked=locked)))
+        weights = np.zeros(len(locked))
+        weights[0] = 1.0
+        app.desk.apply(Edit("Set", True, weights=weights))
+        assert app.desk.is_error
+        assert "locked" in app.desk.message
+        for request in (Command.REFERENCE_FROM_POSE, AddPane(choose("hybrid")), ClosePane(1)):
             app.ask(request)
-            app.step(PointerMoved(5, 5), frames=2)
-        assert app.desk.view.panes[0].choices["tikhonov"] == changed
+            assert not app.desk.is_error
+            assert not app.desk.message
 
 
 def test_a_path_that_cannot_be_written_can_be_typed_again(tmp_path: Path) -> None:

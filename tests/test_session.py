@@ -107,6 +107,10 @@ def test_another_solver_is_asked_for_the_same_drag() -> None:
     other.apply(Edit("Drag pin", True, pins, solve=True))
     np.testing.assert_array_equal(session.pose.weights, other.pose.weights)
     assert session.undo_label == "Solve with Tikhonov"
+    there = session.work
+    session.choose_solver(0, choose("hybrid"), final=False)
+    session.choose_solver(0, choose("tikhonov"))
+    assert session.work is there, "slid to and fro, it is no step"
 
 
 def _broken(weights: object) -> SolverKind:
@@ -249,7 +253,9 @@ def test_a_random_walk_is_undone_and_redone_exactly() -> None:
             case _:
                 session.apply(Edit("Drag pin", False, pins, solve=True))
                 session.apply(Edit("Drag pin", True, pins, solve=True))
-        seen.append(session.work)
+        if session.work is not seen[-1]:  # the solver may be the one that is there already
+            seen.append(session.work)
+    assert len(seen) > 50
     for work in reversed(seen[:-1]):
         assert session.undo()
         assert session.work is work

@@ -143,7 +143,7 @@ MAKERS: dict[type, Maker] = {
     shelf.ComparePoses: lambda random, _: shelf.ComparePoses(key(random), key(random)),
     shelf.StopBlending: lambda *_: shelf.StopBlending(),
     requests.SetControl: lambda random, session: requests.SetControl(
-        "Control", random_control(random, session), final=bool(random.integers(2))
+        "Control", random_control(random, session)
     ),
     requests.CancelEdit: lambda *_: requests.CancelEdit(),
     requests.ShadeAs: lambda random, _: requests.ShadeAs(list(MODES)[random.integers(len(MODES))]),
@@ -177,10 +177,11 @@ def random_control(random: np.random.Generator, session: Session) -> ShapeContro
 
 def random_edit(random: np.random.Generator, session: Session) -> None:
     """What hands and sliders do: a gesture of some steps, which ends, is given up, or goes on."""
+    if random.integers(5) == 0:
+        session.set_control("Control", random_control(random, session))
+        return
     for final in (*[False] * random.integers(0, 3), bool(random.integers(4))):
-        match random.integers(5):
-            case 4:
-                session.set_control("Control", random_control(random, session), final=final)
+        match random.integers(4):
             case 0:
                 session.apply(Edit("Set", final, weights=random.uniform(-0.5, 1.5, RIG.shape_count)))
             case 1:

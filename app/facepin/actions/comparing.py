@@ -33,6 +33,8 @@ def act(request: Request, desk: Desk) -> bool:
             session.active = pane
             return True
         case UseSolver(pane, choice, final):
+            if (before := session.panes[pane].choice).kind is not choice.kind:
+                desk.view.panes[pane].used[before.kind.key] = before
             session.choose_solver(pane, choice, final=final)
         case AddPane(choice):
             session.add_pane(choice)

@@ -22,8 +22,8 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.RESET_POSE:
             session.reset()
             desk.say(session.message)
-        case SetControl(label, control, final):
-            session.set_control(label, control, final=final)
+        case SetControl(label, control):
+            session.set_control(label, control)
             desk.say("")
         case CancelEdit():
             session.cancel()

@@ -101,17 +101,16 @@ def _command(command: Command, view: View, session: Session | None) -> Entry:
 
 def _solvers(view: View, session: Session) -> list[Entry]:
     """List what can be done with solvers, panes and random references."""
-    kind, keep = session.pane.choice.kind, session.pane.choice.keep_limits
-    used = view.panes[session.active].choices
+    choice, shown = session.pane.choice, view.panes[session.active]
     full = f"there are {MOST_PANES} panes" if len(session.panes) >= MOST_PANES else ""
     alone = "" if len(session.panes) > 1 else "there is one pane"
     found = [
         Entry(
             f"Solver: {other.title}",
             "Solver",
-            UseSolver(session.active, used.get(key) or choose(key, keep_limits=keep)),
+            UseSolver(session.active, shown.choice(key, choice)),
             other.summary,
-            on=other is kind,
+            on=other is choice.kind,
         )
         for key, other in SOLVERS.items()
     ]
@@ -119,7 +118,7 @@ def _solvers(view: View, session: Session) -> list[Entry]:
         Entry(
             f"Add a pane: {other.title}",
             "Compare",
-            AddPane(choose(key, keep_limits=keep)),
+            AddPane(choose(key, keep_limits=choice.keep_limits)),
             other.summary,
             reason=full,
         )

@@ -13,7 +13,7 @@ from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal
 from facepin.session.navigation import Habit
 from facepin.session.session import Pane
-from facepin.session.solving import SolverChoice, choose
+from facepin.session.solving import SolverChoice
 from facepin.solvers import SOLVERS
 
 _COLOURS = {
@@ -151,7 +151,7 @@ def _menu(at: int, pane: Pane, view: PaneView, habit: Habit, *, has_reference: b
     close_on_escape()
     for key, kind in SOLVERS.items():
         if imgui.menu_item_simple(kind.title, selected=kind is pane.choice.kind):
-            asked.append(UseSolver(at, choose(key, keep_limits=pane.choice.keep_limits)))
+            asked.append(UseSolver(at, view.choice(key, pane.choice)))
     imgui.separator()
     overlay_items(view, habit, has_reference=has_reference)
     imgui.separator()

@@ -423,7 +423,6 @@ class SetControl:
 
     label: str
     control: ShapeControl
-    final: bool = True
 
 
 @dataclass(frozen=True)

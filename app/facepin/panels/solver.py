@@ -15,7 +15,7 @@ from facepin.panels.requests import UseSolver
 from facepin.panels.theme import Theme
 from facepin.panels.view import PaneView
 from facepin.session.session import Pane
-from facepin.session.solving import Solved, choose
+from facepin.session.solving import Solved
 from facepin.solvers import SOLVERS
 
 HUGE = 10.0
@@ -27,17 +27,16 @@ def solver_panel(
 ) -> UseSolver | None:
     """Draw the solver of pane number `at`; return what the user changes in this frame, or None.
 
-    `view` is told whether the pane should show how far a radius reaches, and remembers the solver.
+    `view` is told whether the pane should show how far a radius reaches.
     """
     choice = pane.choice
     view.reach = False
-    view.choices[choice.kind.key] = choice
     request = None
     imgui.set_next_item_width(-1)
     if imgui.begin_combo("##solver", choice.kind.title):
         for key, kind in SOLVERS.items():
             if imgui.selectable(kind.title, kind is choice.kind)[0] and kind is not choice.kind:
-                request = UseSolver(at, view.choices.get(key) or choose(key, keep_limits=choice.keep_limits))
+                request = UseSolver(at, view.choice(key, choice))
             imgui.set_item_tooltip(kind.summary)
         imgui.end_combo()
     imgui.set_item_tooltip(choice.kind.summary)

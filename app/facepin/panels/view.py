@@ -14,7 +14,7 @@ from facepin.panels.recovery import RecoveryView
 from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights.view import WeightsView
 from facepin.session.navigation import PRESETS, Habit
-from facepin.session.solving import SolverChoice
+from facepin.session.solving import SolverChoice, choose
 
 Ghost = Literal["none", "neutral", "reference"]
 
@@ -29,8 +29,8 @@ class PaneView:
     ghost: Ghost = "none"
     """Another pose that shines through."""
 
-    choices: dict[str, SolverChoice] = field(default_factory=dict)
-    """Solvers that were in use here, by key: coming back to one finds its settings."""
+    used: dict[str, SolverChoice] = field(default_factory=dict)
+    """Solvers that gave way to others here, by key."""
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 
@@ -38,6 +38,12 @@ class PaneView:
     """Shape whose moves are shown as colours; while the mouse rests on its name."""
     before_heat: Shading = "studio"
     """What the heat map gives way to."""
+
+    def choice(self, key: str, instead_of: SolverChoice) -> SolverChoice:
+        """Return a solver for this pane: with the settings that it had here before, if it was in use."""
+        if key == instead_of.kind.key:
+            return instead_of
+        return self.used.get(key) or choose(key, keep_limits=instead_of.keep_limits)
 
     @property
     def mode(self) -> str | None:

@@ -166,8 +166,7 @@ class Session:
         A solver that fails leaves the last good poses in place and says so in `message`.  So do new weights
         for locked shapes: these stay as they are, and where nothing else is asked for, so does everything.
         """
-        before = self._history.current
-        self.message = ""
+        before = self._begin()
         try:
             work = replace(before, panes=self._edited(before, edit))
         except FacepinError as error:
@@ -179,8 +178,12 @@ class Session:
         """Give a pane another solver or other settings.
 
         If the last step was a drag, it is solved again from where it began: the difference is seen at once.
+        What is there already is no step.
         """
-        before = self._history.current
+        before = self._begin()
+        if choice == before.panes[at].choice:
+            self._preview = None
+            return
         panes = (*before.panes[:at], self._with_solver(at, before.panes[at], choice), *before.panes[at + 1 :])
         self._show(f"Solve with {choice.kind.title}", replace(before, panes=panes), final=final)
 
@@ -192,7 +195,7 @@ class Session:
         FacepinError
             When there are as many as fit.
         """
-        before = self._history.current
+        before = self._begin()
         if len(before.panes) >= MOST_PANES:
             raise FacepinError(f"{MOST_PANES} panes are open already, no more fit")
         at = len(before.panes)
@@ -203,7 +206,7 @@ class Session:
 
     def close_pane(self, at: int) -> None:
         """Close one of several panes."""
-        before = self._history.current
+        before = self._begin()
         if len(before.panes) > 1:
             active = self.active
             panes = (*before.panes[:at], *before.panes[at + 1 :])
@@ -212,7 +215,7 @@ class Session:
 
     def keep_pane(self, at: int) -> None:
         """Go on with one pane's pose alone."""
-        before = self._history.current
+        before = self._begin()
         self._show("Keep one pane", replace(before, panes=(before.panes[at],)), final=True)
         self._active = 0
 
@@ -221,7 +224,7 @@ class Session:
 
         Locked shapes stay as they are, which `message` says.
         """
-        before = self._history.current
+        before = self._begin()
         zero = np.zeros(self.rig.shape_count)
         poses = [
             pane.pose.with_weights(before.control.keeping_locked(zero, pane.pose.weights))
@@ -234,24 +237,24 @@ class Session:
         )
         self._show("Reset the pose", replace(before, panes=panes), final=True)
 
-    def set_control(self, label: str, control: ShapeControl, *, final: bool = True) -> None:
+    def set_control(self, label: str, control: ShapeControl) -> None:
         """Restrain shapes in another way.
 
         Weights and goals stay as they are: to mute a shape and to hear it again changes nothing.
         """
         if len(control.locked) != self.rig.shape_count:
             raise ValueError(f"control of {len(control.locked)} shapes for {self.rig.shape_count}")
-        self._show(label, replace(self._history.current, control=control), final=final)
+        self._show(label, replace(self._begin(), control=control), final=True)
 
     def set_mirror(self, label: str, mirror: Mirror) -> None:
         """Take other shapes for twins from now on; no weight changes."""
-        self._show(label, replace(self._history.current, mirror=mirror), final=True)
+        self._show(label, replace(self._begin(), mirror=mirror), final=True)
 
     def set_reference(self, weights: Floats | None) -> None:
         """Measure the panes against weights (k,) from now on; None forgets them."""
         label = "Forget the reference" if weights is None else "Set the reference"
         kept = None if weights is None else frozen(weights, np.float64)
-        self._show(label, replace(self._history.current, reference=kept), final=True)
+        self._show(label, replace(self._begin(), reference=kept), final=True)
 
     def compare(self, label: str, weights: Floats, reference: Floats) -> None:
         """Put weights (k,) on the active pane, to be measured against others (k,), as one step.
@@ -263,15 +266,14 @@ class Session:
         FacepinError
             When all that differs is locked.
         """
-        before = self._history.current
-        self.message = ""
+        before = self._begin()
         panes = self._edited(before, Edit(label, True, weights=weights))
         kept = frozen(reference, np.float64)
         self._show(label, replace(before, panes=panes, reference=kept), final=True)
 
     def arrange(self, label: str, changes: Shelf) -> None:
         """Change poses of the library, as one step."""
-        before = self._history.current
+        before = self._begin()
         self._show(label, replace(before, shelf={**before.shelf, **changes}), final=True)
 
     def cancel(self) -> None:
@@ -299,6 +301,11 @@ class Session:
         """Undo or redo to one of the steps; False when there is none of that number."""
         self._preview = None
         return self._history.go_to(step)
+
+    def _begin(self) -> Work:
+        """Return the work that an edit begins with; what was said of the last edit is over."""
+        self.message = ""
+        return self._history.current
 
     def _show(self, label: str, work: Work, *, final: bool) -> None:
         self._preview, self._preview_label = None if final else work, label
@@ -379,7 +386,6 @@ class Session:
 
     def _with_solver(self, at: int, pane: Pane, choice: SolverChoice) -> Pane:
         """Return a pane with its last drag, if it was the last step, solved in another way."""
-        self.message = ""
         chosen = replace(pane, choice=choice, solved=None)
         if pane.began is None:
             return chosen

@@ -51,6 +51,17 @@ def test_type_some_letters_and_press_enter() -> None:
         assert app.desk.view.lately == ("Wireframe",)
 
 
+@pytest.mark.parametrize("call", [CALL, KeyPressed("f3")])
+def test_the_key_that_opens_it_closes_it(call: KeyPressed) -> None:
+    with running() as app:
+        app.desk.view.habit = "blender"
+        app.step(call, frames=4)
+        assert app.desk.view.palette is not None
+        app.step(KeyPressed("w"), KeyPressed("delete"), call, frames=4)
+        assert app.desk.view.palette is None
+        assert not app.desk.view.panes[0].wireframe, "keys write while it is open"
+
+
 def test_arrows_choose_and_escape_leaves() -> None:
     with running() as app:
         called(app, "theme")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from imgui_bundle import imgui
 
 from driver import App, running
 from facepin.core.events import (
@@ -13,6 +14,7 @@ from facepin.core.events import (
     PointerReleased,
 )
 from facepin.panels.requests import AddPane
+from facepin.session.edit import Edit
 from facepin.session.solving import choose
 
 UNDO = KeyPressed("z", Modifiers(control=True))
@@ -106,3 +108,32 @@ def test_a_drop_of_nothing_is_no_drop() -> None:
     with running() as app:
         app.step(FilesDropped(()), frames=2)
         assert app.desk.loading is None
+
+
+@pytest.mark.parametrize("over", ["keyboard", "about", "slider"])
+def test_escape_ends_one_thing_at_a_time(over: str) -> None:
+    with running() as app:
+        app.press(*skin(app))
+        app.release(*skin(app))
+        app.step(PointerMoved(5, 5), frames=2)
+        (selected,) = app.desk.tool.selected
+        if over == "slider":
+            app.desk.apply(Edit("Set", False, weights=np.full(app.session.rig.shape_count, 0.1)))
+        else:
+            setattr(app.desk.view, over, True)
+            app.step(PointerMoved(6, 5), frames=2)
+
+        def escape() -> None:
+            imgui.get_io().add_key_event(imgui.Key.escape, True)
+            app.step(KeyPressed("escape"), frames=2)
+            imgui.get_io().add_key_event(imgui.Key.escape, False)
+            app.step(PointerMoved(5, 5), frames=2)
+
+        escape()
+        assert app.desk.tool.selected == {selected}
+        if over == "slider":
+            app.session.cancel()  # as the panel does that the slider is in
+        else:
+            assert not getattr(app.desk.view, over)
+        escape()
+        assert not app.desk.tool.selected

@@ -1,7 +1,9 @@
 """What is drawn arrives in the window, the right way up."""
 
 import numpy as np
+import pytest
 
+from facepin.core.events import KeyPressed
 from facepin.gpu.canvas import Canvas
 from facepin.window import Window
 
@@ -20,3 +22,14 @@ def test_a_canvas_fills_the_window_with_its_first_row_on_top() -> None:
             window.show(canvas.flat())
             np.testing.assert_allclose(window.read(), expected, atol=1)
             canvas.release()
+
+
+def test_a_held_key_is_told_by_what_the_keyboard_writes_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    import glfw  # not before the window has shared it with imgui
+
+    with Window("test", (64, 48), windowless=True) as window:
+        monkeypatch.setattr(glfw, "get_key_name", lambda key, _: {glfw.KEY_W: "z", glfw.KEY_Z: "w"}.get(key))
+        for key, action in ((glfw.KEY_W, glfw.PRESS), (glfw.KEY_W, glfw.REPEAT), (glfw.KEY_Z, glfw.REPEAT)):
+            window._on_key(None, key, 0, action, 0)
+        pressed = [event.key for event in window.poll() if isinstance(event, KeyPressed)]
+        assert pressed == ["z", "z"], "undo goes on while it is held, W does not"

@@ -294,12 +294,12 @@ class Window:
             if name in _HELD:
                 self._events.append(KeyReleased(name))
             return
-        if action == glfw.REPEAT and name not in _REPEATED:
-            return  # a picture is not saved thirty times a second because F12 was held
         if glfw.KEY_A <= key <= glfw.KEY_Z:
             # What the keyboard's own layout writes there: Ctrl+Z is where the user's Z is.
             written = glfw.get_key_name(key, scancode)
             name = written.lower() if written and written.isascii() and written.isalpha() else name
+        if action == glfw.REPEAT and name not in _REPEATED:
+            return  # a picture is not saved thirty times a second because F12 was held
         if name is not None:
             self._events.append(KeyPressed(name, self._modifiers()))
 

@@ -22,6 +22,7 @@ from facepin.core.events import (
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
 from facepin.panels.requests import PICTURES, Command, OpenPath, Request, command_for
+from facepin.panels.view import View
 from facepin.session.edit import Edit
 from facepin.session.navigation import PRESETS, Navigator
 from facepin.session.nudge import goes_on
@@ -81,8 +82,10 @@ class Router:
                 asked.append(Command.QUIT)
             case FilesDropped((first, *_)):
                 asked.append(OpenPath(first.parent if first.suffix.lower() == ".obj" else first))
-            case KeyPressed() if desk.view.palette is None:
+            case KeyPressed():
                 command = command_for(event, desk.view.habit)
+                if desk.view.palette is not None and command is not Command.PALETTE:
+                    return None
                 if imgui.get_io().want_text_input and command is not Command.PALETTE:
                     return None  # it is being written; only what writes nothing is heard everywhere
                 in_hand = desk.tool.holding or self.navigator.holding
@@ -102,10 +105,10 @@ class Router:
     ) -> Edit | None:
         """Give a key that asks for no command to the tool, in the pane that is worked on."""
         if event.key == "escape":
-            if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
-                return None  # that is what it closes
             if desk.tool.holding or desk.tool.nudging:
                 stage.session.cancel()
+            elif stage.session.in_gesture or _is_over_all(desk.view):
+                return None  # that is what it ends
             elif desk.view.pins.sketching:
                 desk.view.pins.sketching = False
                 return None
@@ -195,6 +198,11 @@ def _finished(edit: Edit | None, desk: Desk) -> None:
         desk.apply(edit)
         if desk.stage is not None:
             desk.stage.update()
+
+
+def _is_over_all(view: View) -> bool:
+    """Say whether something is open that Esc closes."""
+    return view.keyboard or view.about or imgui.is_popup_open("", imgui.PopupFlags_.any_popup)
 
 
 def _is_escape(event: Event) -> bool:

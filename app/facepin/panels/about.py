@@ -40,6 +40,7 @@ def about_window(graphics: str, scale: float) -> bool:
         "Licence": "MIT",
         "Font": "Roboto, Apache License 2.0",
     }
+    stays = stays and not imgui.is_key_pressed(imgui.Key.escape, False)
     if shown:
         imgui.text("Poses a blendshape face by pinning points on it and dragging them.")
         imgui.dummy(imgui.ImVec2(0, 4 * scale))
@@ -60,7 +61,5 @@ def about_window(graphics: str, scale: float) -> bool:
         if imgui.button("Copy"):
             imgui.set_clipboard_text("\n".join(f"{name}: {value}" for name, value in facts.items()))
         imgui.set_item_tooltip("Puts these lines on the clipboard, for a report of a fault.")
-        if imgui.is_window_focused() and imgui.is_key_pressed(imgui.Key.escape, False):
-            stays = False
     imgui.end()
     return bool(stays)

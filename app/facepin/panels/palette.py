@@ -233,7 +233,7 @@ def palette(
     clicked = _rows(state, fitting, view.theme, scale, jumped=bool(step))
     _foot(fitting[state.row][0] if fitting else None)
     imgui.end()
-    if imgui.is_key_pressed(imgui.Key.escape, False) or leaves or _called_again():
+    if imgui.is_key_pressed(imgui.Key.escape, False) or leaves:
         view.palette = None
         return None
     if not ((entered or clicked) and fitting):
@@ -257,10 +257,6 @@ def _steps() -> int:
         imgui.Key.page_up: 1 - ROWS,
     }
     return sum(step for key, step in steps.items() if imgui.is_key_pressed(key))
-
-
-def _called_again() -> bool:
-    return imgui.get_io().key_ctrl and imgui.is_key_pressed(imgui.Key.p, False)
 
 
 def _rows(

@@ -1,4 +1,4 @@
-"""Whether a command can do anything now, and if not, why; and whether it did already."""
+"""What a command is called now, whether it can do anything and if not, why; and whether it did already."""
 
 from facepin.panels.requests import Command
 from facepin.panels.view import View
@@ -30,6 +30,14 @@ OF_PINS = frozenset(
     }
 )
 """What makes sense where pins are."""
+
+
+def title_of(command: Command, session: Session | None) -> str:
+    """Return what a menu calls a command: undo and redo say what of."""
+    label = None
+    if session is not None and command in (Command.UNDO, Command.REDO):
+        label = session.undo_label if command is Command.UNDO else session.redo_label
+    return f"{command.title}: {label}" if label else command.title
 
 
 def why_not(command: Command, session: Session | None) -> str:

@@ -6,7 +6,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.panels import layout
-from facepin.panels.availability import why_not
+from facepin.panels.availability import is_on, title_of, why_not
 from facepin.panels.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.pins import STROKES
 from facepin.panels.requests import (
@@ -50,8 +50,6 @@ def menu_bar(
     has_leftovers : bool
         Whether there is unsaved work of former windows.
     """
-    undo = session.undo_label if session else None
-    redo = session.redo_label if session else None
     asked: Request | None = None
     layout.push_no_ground()
     shown = imgui.begin_main_menu_bar()
@@ -60,38 +58,32 @@ def menu_bar(
         return None
     if imgui.begin_menu("File"):
         close_on_escape()
-        asked = _item(view, Command.OPEN_FILE) or _item(view, Command.OPEN_FOLDER) or asked
+        asked = _items(view, session, Command.OPEN_FILE, Command.OPEN_FOLDER) or asked
         if imgui.begin_menu("Open recent", bool(recent)):
             for path in recent:
                 if imgui.menu_item_simple(f"{path.name}##{path}"):
                     asked = OpenPath(path)
                 explain_item(str(path))
             imgui.end_menu()
-        asked = _item(view, Command.OPEN_BUILTIN) or asked
-        asked = _item(view, Command.UNSAVED_WORK, has_leftovers) or asked
+        asked = _items(view, session, Command.OPEN_BUILTIN) or asked
+        asked = _item(view, session, Command.UNSAVED_WORK, is_there=has_leftovers) or asked
         imgui.separator()
-        for command in (Command.SAVE, Command.SAVE_AS):
-            asked = _item(view, command, session is not None) or asked
+        asked = _items(view, session, Command.SAVE, Command.SAVE_AS) or asked
         imgui.separator()
-        for command in (Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT):
-            asked = _item(view, command) or asked
+        asked = _items(view, session, Command.LOAD_POSE, Command.SAVE_POSE, Command.EXPORT) or asked
         imgui.separator()
-        for command in (Command.SCREENSHOT, Command.SCREENSHOT_PINS):
-            asked = _item(view, command, session is not None) or asked
+        asked = _items(view, session, Command.SCREENSHOT, Command.SCREENSHOT_PINS) or asked
         imgui.separator()
-        asked = _item(view, Command.QUIT) or asked
+        asked = _items(view, session, Command.QUIT) or asked
         imgui.end_menu()
     if imgui.begin_menu("Edit"):
         close_on_escape()
-        asked = _item(view, Command.UNDO, not why_not(Command.UNDO, session), undo) or asked
-        asked = _item(view, Command.REDO, not why_not(Command.REDO, session), redo) or asked
-        asked = _item(view, Command.HISTORY, session is not None) or asked
+        asked = _items(view, session, Command.UNDO, Command.REDO, Command.HISTORY) or asked
         imgui.separator()
-        asked = _item(view, Command.RESET_POSE) or asked
+        asked = _items(view, session, Command.RESET_POSE) or asked
         imgui.separator()
-        asked = _item(view, Command.SYMMETRY, selected=view.symmetric) or asked
-        for command in (Command.FLIP_POSE, Command.MIRROR_LEFT, Command.MIRROR_RIGHT):
-            asked = _item(view, command) or asked
+        mirrored = (Command.SYMMETRY, Command.FLIP_POSE, Command.MIRROR_LEFT, Command.MIRROR_RIGHT)
+        asked = _items(view, session, *mirrored) or asked
         imgui.end_menu()
     if imgui.begin_menu("Pins", session is not None) and session is not None:
         close_on_escape()
@@ -102,8 +94,7 @@ def menu_bar(
         for number, group in enumerate(POSES_MENU):
             if number:
                 imgui.separator()
-            for command in group:
-                asked = _item(view, command) or asked
+            asked = _items(view, session, *group) or asked
         imgui.end_menu()
     if imgui.begin_menu("Compare", session is not None) and session is not None:
         close_on_escape()
@@ -111,8 +102,7 @@ def menu_bar(
         imgui.end_menu()
     if imgui.begin_menu("View"):
         close_on_escape()
-        for command in (Command.FRAME, *VIEW_COMMANDS):
-            asked = _item(view, command) or asked
+        asked = _items(view, session, Command.FRAME, *VIEW_COMMANDS) or asked
         imgui.separator()
         if session is not None:
             overlay_items(
@@ -126,14 +116,13 @@ def menu_bar(
         for name in ("theme_name", "habit", "ui_scale"):
             asked = _choices(view, name) or asked
         imgui.separator()
-        asked = _item(view, Command.RESET_LAYOUT) or asked
+        asked = _items(view, session, Command.RESET_LAYOUT) or asked
         imgui.end_menu()
     if imgui.begin_menu("Help"):
         close_on_escape()
-        for command in (Command.PALETTE, Command.KEYBOARD, Command.GUIDE):
-            asked = _item(view, command) or asked
+        asked = _items(view, session, Command.PALETTE, Command.KEYBOARD, Command.GUIDE) or asked
         imgui.separator()
-        asked = _item(view, Command.ABOUT) or asked
+        asked = _items(view, session, Command.ABOUT) or asked
         imgui.end_menu()
     imgui.end_main_menu_bar()
     return asked
@@ -154,55 +143,49 @@ def _compare(view: View, session: Session) -> Request | None:
         asked = ClosePane(session.active)
     asked = _choices(view, "linked", several) or asked
     imgui.separator()
-    for command in (Command.REFERENCE_FROM_POSE, Command.REFERENCE_FROM_FILE):
-        asked = _item(view, command) or asked
+    asked = _items(view, session, Command.REFERENCE_FROM_POSE, Command.REFERENCE_FROM_FILE) or asked
     if imgui.begin_menu("Random reference"):
         for shapes in RANDOM_SHAPES:
             if imgui.menu_item_simple(f"of {shapes} shape{'s' if shapes > 1 else ''}"):
                 asked = RandomReference(shapes)
         imgui.end_menu()
-    forget = Command.FORGET_REFERENCE
-    asked = _item(view, forget, not why_not(forget, session)) or asked
+    asked = _items(view, session, Command.FORGET_REFERENCE) or asked
     imgui.separator()
-    return _item(view, Command.CHART) or asked
+    return _items(view, session, Command.CHART) or asked
 
 
 def _pins(view: View, session: Session) -> Request | None:
     """Draw the inside of the menu of pins."""
-    asked: Request | None = None
-    for command in (Command.SELECT_PINS, Command.LOCK_PINS, Command.HIDE_PINS, Command.DELETE_PINS):
-        asked = _item(view, command, not why_not(command, session)) or asked
-    for command in (Command.SHOW_PINS, Command.CLEAR_PINS):
-        asked = _item(view, command, not why_not(command, session)) or asked
+    of_selected = (Command.SELECT_PINS, Command.LOCK_PINS, Command.HIDE_PINS, Command.DELETE_PINS)
+    asked: Request | None = _items(view, session, *of_selected, Command.SHOW_PINS, Command.CLEAR_PINS)
     imgui.separator()
     asked = _choices(view, "freedom") or asked
-    asked = _item(view, Command.SKETCH_PINS, selected=view.pins.sketching) or asked
+    asked = _items(view, session, Command.SKETCH_PINS) or asked
     if imgui.begin_menu("Pins along a stroke"):
         for count in range(STROKES[0], STROKES[1] + 1):
             if imgui.menu_item_simple(str(count), selected=view.pins.stroke == count):
                 view.pins.stroke = count
         imgui.end_menu()
     imgui.separator()
-    save = Command.SAVE_LANDMARKS
-    asked = _item(view, save, not why_not(save, session)) or asked
-    return _item(view, Command.LOAD_LANDMARKS) or asked
+    return _items(view, session, Command.SAVE_LANDMARKS, Command.LOAD_LANDMARKS) or asked
 
 
-def _item(
-    view: View,
-    command: Command,
-    enabled: bool = True,
-    detail: str | None = None,
-    *,
-    selected: bool = False,
-) -> Command | None:
-    """Draw the item of a command, with its key and what it does."""
-    title = f"{command.title}: {detail}" if detail else command.title
+def _items(view: View, session: Session | None, *commands: Command) -> Command | None:
+    """Draw items of commands; return the one that was chosen."""
+    chosen = [command for command in commands if _item(view, session, command)]
+    return chosen[0] if chosen else None
+
+
+def _item(view: View, session: Session | None, command: Command, *, is_there: bool = True) -> Command | None:
+    """Draw the item of a command, with its key and what it does, or why it can't be done now."""
+    reason = why_not(command, session)
     chosen = imgui.menu_item_simple(
-        title, key_of(command, view.habit) or None, selected=selected, enabled=enabled
+        title_of(command, session),
+        key_of(command, view.habit) or None,
+        selected=is_there and is_on(command, view, session.active if session else 0),
+        enabled=is_there and not reason,
     )
-    if command.help:
-        explain_item(command.help)
+    explain_item(f"{command.help}\nNot now: {reason}." if reason else command.help)
     return command if chosen else None
 
 

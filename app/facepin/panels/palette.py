@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 from facepin.core.fuzzy import match
 from facepin.core.saved_pose import SavedPose
 from facepin.core.shading import MODES
-from facepin.panels.availability import is_on, why_not
+from facepin.panels.availability import is_on, title_of, why_not
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.library_requests import ApplyPose
 from facepin.panels.requests import (
@@ -89,14 +89,9 @@ def _words(pose: SavedPose) -> str:
 
 
 def _command(command: Command, view: View, session: Session | None) -> Entry:
-    label = {
-        Command.UNDO: session.undo_label if session else None,
-        Command.REDO: session.redo_label if session else None,
-    }.get(command)
-    title = f"{command.title}: {label}" if label else command.title
     key, reason = key_of(command, view.habit), why_not(command, session)
     on = is_on(command, view, session.active if session else 0)
-    return Entry(title, command.topic, command, command.help, key, reason, on)
+    return Entry(title_of(command, session), command.topic, command, command.help, key, reason, on)
 
 
 def _solvers(view: View, session: Session) -> list[Entry]:

@@ -23,7 +23,7 @@ from facepin.files.pose_file import write_pose
 from facepin.panels.guide import STEPS, Guide
 from facepin.panels.requests import CancelJob, Command
 from facepin.session.edit import Edit
-from facepin.session.filmstrip import filmstrip
+from facepin.session.filmstrip import Filmstrip
 from facepin.session.job import Job, Steps, beside
 from facepin.session.session import Session
 from facepin.session.solving import choose
@@ -82,8 +82,15 @@ def test_a_filmstrip_shows_the_steps_that_changed_the_pose() -> None:
     session.apply(Edit("Set three", True, weights=weights(2)))
     session.undo()
     session.apply(Edit("Step of a gesture", False, weights=weights(3)))
-    assert [still.label for still in filmstrip(session)] == ["Start", "Set one", "Set two"]
-    assert filmstrip(session)[-1].pose.weights[1] == 0.9
+    strip = Filmstrip()
+    stills = strip.stills(session)
+    assert [still.label for still in stills] == ["Start", "Set one", "Set two"]
+    assert stills[-1].pose.weights[1] == 0.9
+    session.apply(Edit("Step of a gesture", False, weights=weights(2)))
+    assert strip.stills(session) is stills
+    session.undo()  # the gesture
+    session.undo()
+    assert len(strip.stills(session)) == 2
 
 
 def test_a_filmstrip_shows_muted_shapes_as_they_were_shown() -> None:
@@ -92,7 +99,7 @@ def test_a_filmstrip_shows_muted_shapes_as_they_were_shown() -> None:
     muted = np.array([True, False, False, False])
     session.set_control("Mute shape0", replace(session.control, muted=muted))
     session.set_control("Lock shape1", replace(session.control, locked=~muted))
-    stills = filmstrip(session)
+    stills = Filmstrip().stills(session)
     assert [still.label for still in stills] == ["Start", "Set", "Mute shape0"]
     assert stills[-1].pose.weights.tolist() == [0.0, 0.6, 0.0, 0.0]
 
@@ -168,7 +175,7 @@ def test_the_filmstrip_window_opens_and_closes(app: App) -> None:
     # The newest step is in sight, in its frame, though the strip is longer than the window.
     accent = np.multiply(app.desk.view.theme.accent[:3], 255)
     framed = (np.abs(shown - accent).max(axis=2) < 8).sum(axis=0)
-    assert len(filmstrip(app.session)) * 132 > 0.62 * 640
+    assert len(Filmstrip().stills(app.session)) * 132 > 0.62 * 640
     assert np.count_nonzero(framed > 100) >= 2
     app.ask(Command.FILMSTRIP)
     app.step(PointerMoved(6, 6), frames=6)

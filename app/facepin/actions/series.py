@@ -16,7 +16,7 @@ from facepin.files.animation import write_animation
 from facepin.files.atomic import atomic_write
 from facepin.gpu.picture import Image, png_bytes
 from facepin.panels.requests import CancelJob, Command, Request
-from facepin.session.filmstrip import Still, filmstrip
+from facepin.session.filmstrip import Still
 from facepin.session.job import Job, Steps, beside
 from facepin.sheets import Pane, contact_columns, write_sheet
 
@@ -45,7 +45,7 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.FILMSTRIP:
             desk.view.filmstrip = not desk.view.filmstrip
         case Command.SAVE_FILMSTRIP:
-            stills = filmstrip(stage.session)
+            stills = desk.filmstrip.stills(stage.session)
             desk.start(Job("Drawing the filmstrip", _filmstrip(desk, stage, stills)))
         case Command.TURNTABLE:
             desk.start(Job("Drawing the turntable", _turntable(desk, stage)))

@@ -105,10 +105,6 @@ class Camera:
             ]
         )
 
-    def view_projection(self, viewport: Viewport) -> Floats:
-        """World to clip space for a viewport, (4, 4) float64, acting on columns."""
-        return self.projection(viewport.aspect) @ self.view_matrix()
-
     def pixel_size(self, viewport: Viewport) -> float:
         """Length in space that one pixel covers at the target's depth."""
         return 2 * self.distance * self._slope(viewport.aspect) / max(viewport.height, 1)

@@ -21,6 +21,7 @@ from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
+from facepin.session.filmstrip import Filmstrip
 from facepin.session.job import Job
 from facepin.session.loading import Loading
 from facepin.session.session import Session
@@ -72,6 +73,7 @@ class Desk:
         self.stage: Stage | None = None
         self.library: Library | None = None
         self.portraits: Portraits | None = None
+        self.filmstrip = Filmstrip()
         self.job: Job | None = None
         """What is being made beside the work."""
         self.opener = Opener()

@@ -27,7 +27,7 @@ class Portraits:
 
     def __init__(self, ctx: moderngl.Context, stage: Stage) -> None:
         self.complaint = ""
-        """Why the last picture could not be stored."""
+        """Why the last picture could not be stored; empty when it could."""
         self._stage = stage
         self._rig = stage.session.rig
         self._atlas = Atlas(ctx, SIDE)
@@ -72,6 +72,7 @@ class Portraits:
             if path is not None and is_writable(path.parent):
                 try:
                     write_thumbnail(path, image, mark)
+                    self.complaint = ""
                 except FacepinError as error:  # it is shown all the same, and made again next time
                     self.complaint = str(error)
         self._atlas.put(mark, image)

@@ -27,7 +27,7 @@ from facepin.panels.view import Ghost, PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
 from facepin.session.drag import DragTool
 from facepin.session.heat import HeatGauge
-from facepin.session.session import Pane, Session, Work
+from facepin.session.session import Session, Work
 
 
 @dataclass(eq=False)
@@ -41,7 +41,7 @@ class _Shown:
     weights: Floats | None = None
     control: ShapeControl | None = None
     positions: Points | None = None
-    appraised: tuple[Pane, Work, Appraisal] | None = None
+    appraised: tuple[Work, Appraisal] | None = None
     """The last appraisal, and what it was of."""
 
 
@@ -129,12 +129,12 @@ class Stage:
     def appraise(self, pane: int) -> Appraisal:
         """Measure a pane's pose as it is shown."""
         work, shown = self.session.work, self._shown[pane]
-        if shown.appraised is None or shown.appraised[:2] != (work.panes[pane], work):
+        if shown.appraised is None or shown.appraised[0] is not work:
             found = self._appraiser.appraise(
                 work.panes[pane], work.control, self.positions(pane), work.reference
             )
-            shown.appraised = work.panes[pane], work, found
-        return shown.appraised[2]
+            shown.appraised = work, found
+        return shown.appraised[1]
 
     def mesh(self, pane: int) -> PaneMesh:
         """The mesh of a pane."""

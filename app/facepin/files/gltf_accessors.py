@@ -73,7 +73,7 @@ def read_delta(document: GltfDocument, index: int, vertices: int) -> Delta:
         last = np.append(np.diff(places[order]) != 0, True)
         return places[order][last], _normalised(values[order][last], entry)
     if "bufferView" not in entry:
-        _refuse_draco_gap(entry, document)
+        _refuse_draco_gap(document)
         return np.zeros(0, np.int32), np.zeros((0, 3), np.float32)
     return _normalised(_dense(document, entry), entry)
 
@@ -95,7 +95,7 @@ def _dense(document: GltfDocument, entry: JsonObject) -> Numbers:
     if "bufferView" in entry:
         values = _view(document, entry, count, width, component)
     else:
-        _refuse_draco_gap(entry, document)
+        _refuse_draco_gap(document)
         if count > document.size:
             entry.refuse("count", f"{document.size} at most without a bufferView, as the file has bytes")
         values = np.zeros((count, width), component)
@@ -158,7 +158,7 @@ def _normalised(values: Numbers, entry: JsonObject) -> Points:
     return np.maximum(floats, np.float32(-1.0))
 
 
-def _refuse_draco_gap(entry: JsonObject, document: GltfDocument) -> None:
+def _refuse_draco_gap(document: GltfDocument) -> None:
     """An accessor without data is zeros, unless the data went into a compressed block."""
     for extension in document.root.strings("extensionsUsed"):
         if extension in COMPRESSIONS and COMPRESSIONS[extension] == "Draco":

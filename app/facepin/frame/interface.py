@@ -36,7 +36,6 @@ from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.panels.vertex_card import vertex_card
 from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
-from facepin.session.filmstrip import filmstrip
 from facepin.session.mirroring import linked_weights
 from facepin.session.session import Session
 
@@ -161,7 +160,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             session.rig, session.panes, session.work.reference, scale, theme
         )
     if desk.view.filmstrip and session is not None and desk.portraits is not None:
-        stills = filmstrip(session)
+        stills = desk.filmstrip.stills(session)
         desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
     return [asked for asked in (request, of_pins, wish, chart, film, *more) if asked is not None]
 
@@ -198,7 +197,7 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
             library.folder,
             library.remark,
             desk.view.theme,
-            library.complaints,
+            (*library.complaints, *filter(None, [portraits.complaint])),
             library.is_reading,
         )
         edit, wishes = library_panel(shown, desk.view.library, scale)

@@ -13,7 +13,7 @@ from facepin.panels.library_requests import LibraryRequest
 from facepin.session.navigation import Habit
 from facepin.session.solving import SolverChoice
 
-Topic = Literal["File", "Edit", "Pins", "Poses", "View", "Compare", "Help", "More"]
+Topic = Literal["File", "Edit", "Pins", "Poses", "View", "Compare", "Help"]
 """What commands are listed under, in this order."""
 
 
@@ -230,7 +230,7 @@ class Command(Enum):
     )
     ABOUT = "About Facepin", (), "Help", "Version, licences, and the graphics driver for a bug report."
 
-    def __init__(self, title: str, shortcuts: tuple[str, ...], topic: Topic = "More", help: str = "") -> None:
+    def __init__(self, title: str, shortcuts: tuple[str, ...], topic: Topic, help: str) -> None:
         self.title = title
         """What a menu calls it."""
         self.shortcuts = shortcuts

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facepin.core.pose import Pose
-from facepin.session.session import Session
+from facepin.session.session import Session, Work
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,8 +18,22 @@ class Still:
     """What it led to, as it was shown: without the weights of shapes that were muted."""
 
 
-def filmstrip(session: Session) -> tuple[Still, ...]:
-    """Return the steps of the active pane up to now, without those after which it looked the same."""
+class Filmstrip:
+    """The steps so far; looked through again only when there is another one."""
+
+    def __init__(self) -> None:
+        self._of: tuple[Work, int] | None = None
+        self._stills: tuple[Still, ...] = ()
+
+    def stills(self, session: Session) -> tuple[Still, ...]:
+        """Return the steps of the active pane up to now, without those after which it looked the same."""
+        of = session.committed, session.active
+        if of != self._of:
+            self._of, self._stills = of, _stills(session)
+        return self._stills
+
+
+def _stills(session: Session) -> tuple[Still, ...]:
     stills: list[Still] = []
     for step in session.steps[: session.step + 1]:
         panes = step.value.panes

@@ -35,7 +35,6 @@ class Listing:
         self.rig = rig
         self._lower = [name.lower() for name in rig.shape_names]
         self._groups: dict[Arrangement, tuple[Group, ...]] = {}
-        self._labels: dict[Arrangement, tuple[str, ...]] = {}
         self._ranking: tuple[int, ...] = ()
         self._ranked: Floats | None = None
         self._key: object = None

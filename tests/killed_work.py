@@ -13,7 +13,7 @@ import numpy as np
 
 from driver import App, running
 from facepin.core.events import PointerMoved
-from facepin.panels.requests import Command
+from facepin.panels.commands import Command
 from facepin.session.edit import Edit
 
 

@@ -13,7 +13,8 @@ from facepin.core.events import FilesDropped, PointerMoved, PointerReleased, Scr
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.core.shading import MODES
-from facepin.panels.requests import AddPane, Command, KeepPane, RemovePins, SetPins
+from facepin.panels.commands import Command
+from facepin.panels.requests import AddPane, KeepPane, RemovePins, SetPins
 from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose
 

@@ -12,7 +12,8 @@ from facepin.core.errors import FacepinError
 from facepin.core.events import PointerMoved
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
-from facepin.panels.requests import AddPane, ClosePane, Command, KeepPane, SetControl, UseSolver
+from facepin.panels.commands import Command
+from facepin.panels.requests import AddPane, ClosePane, KeepPane, SetControl, UseSolver
 from facepin.resources import resource
 from facepin.session.edit import Edit
 from facepin.session.solving import PinSolver, choose

@@ -8,8 +8,8 @@ import pytest
 from driver import App, running
 from facepin.core.events import KeyPressed, Modifiers, PointerMoved
 from facepin.files.preferences import read_preferences
+from facepin.panels.commands import Command
 from facepin.panels.guide import BEAT, BEATS, PATIENCE, STEPS, Guide, Hand
-from facepin.panels.requests import Command
 
 UNDO = KeyPressed("z", Modifiers(control=True))
 

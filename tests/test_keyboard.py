@@ -5,8 +5,8 @@ from imgui_bundle import imgui
 
 from driver import running
 from facepin.core.events import KeyPressed, PointerMoved
+from facepin.panels.commands import Command, keys_of
 from facepin.panels.keyboard import Section, height, in_columns, sections
-from facepin.panels.requests import Command, keys_of
 from facepin.session.navigation import PRESETS
 
 

@@ -14,6 +14,7 @@ from facepin.core.arrays import frozen
 from facepin.core.events import PointerMoved, PointerPressed, PointerReleased, Stirred
 from facepin.core.pose import Pin, Pose
 from facepin.files import write_model
+from facepin.panels.commands import Command
 from facepin.panels.library_requests import (
     ApplyPose,
     ComparePoses,
@@ -23,7 +24,6 @@ from facepin.panels.library_requests import (
     ReplacePose,
     SavePose,
 )
-from facepin.panels.requests import Command
 from facepin.resources import resource
 from facepin.session.edit import Edit
 from small_rigs import sheet

@@ -8,7 +8,7 @@ from imgui_bundle import imgui
 from driver import App, running
 from facepin.core.events import PointerMoved
 from facepin.panels.availability import WITHOUT_FACE
-from facepin.panels.requests import Command, keys_of
+from facepin.panels.commands import Command, keys_of
 
 COMMANDS = {command.title: command for command in Command}
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from driver import App, running
-from facepin.panels.requests import Command, PairShapes
+from facepin.panels.commands import Command
+from facepin.panels.requests import PairShapes
 from facepin.session.edit import Edit
 from facepin.session.mirroring import linked_weights
 

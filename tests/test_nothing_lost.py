@@ -20,8 +20,9 @@ from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested, FilesDropped, PointerMoved
 from facepin.files.drafts import leftovers
 from facepin.files.scene_file import Scene, read_scene
+from facepin.panels.commands import Command
 from facepin.panels.guide import Guide
-from facepin.panels.requests import AddPane, CancelLoading, Command, DiscardWork, OpenPath, RestoreWork
+from facepin.panels.requests import AddPane, CancelLoading, DiscardWork, OpenPath, RestoreWork
 from facepin.session.edit import Edit
 from facepin.session.solving import choose
 from small_rigs import sheet

@@ -10,9 +10,10 @@ from driver import App, running
 from facepin.actions import carry_out
 from facepin.core.events import KeyPressed, Modifiers, PointerMoved
 from facepin.panels.availability import why_not
+from facepin.panels.commands import Command
 from facepin.panels.library_requests import SavePose
 from facepin.panels.palette import entries, ranked
-from facepin.panels.requests import Choose, Command, Request
+from facepin.panels.requests import Choose, Request
 from facepin.panels.view import CHOICES, View
 from facepin.session.edit import Edit
 

@@ -19,16 +19,9 @@ from facepin.core.events import (
     PointerReleased,
 )
 from facepin.core.pose import Pin
+from facepin.panels.commands import Command
 from facepin.panels.pins import picked
-from facepin.panels.requests import (
-    AddPane,
-    Command,
-    NamePin,
-    RemovePins,
-    SelectPins,
-    SetPins,
-    UseSolver,
-)
+from facepin.panels.requests import AddPane, NamePin, RemovePins, SelectPins, SetPins, UseSolver
 from facepin.session import nudge
 from facepin.session.edit import Edit
 from facepin.session.solving import choose

@@ -5,7 +5,7 @@ from collections import Counter
 import pytest
 
 from facepin.core.events import KeyPressed, Modifiers
-from facepin.panels.requests import HABIT_KEYS, Command, command_for, key_of, keys_of
+from facepin.panels.commands import HABIT_KEYS, Command, command_for, key_of, keys_of
 from facepin.session.navigation import PRESETS
 
 

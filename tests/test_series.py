@@ -20,8 +20,9 @@ from facepin.files import write_model
 from facepin.files.animation import write_animation
 from facepin.files.pins_file import write_pins
 from facepin.files.pose_file import write_pose
+from facepin.panels.commands import Command
 from facepin.panels.guide import STEPS, Guide
-from facepin.panels.requests import CancelJob, Command
+from facepin.panels.requests import CancelJob
 from facepin.session.edit import Edit
 from facepin.session.filmstrip import Filmstrip
 from facepin.session.job import Job, Steps, beside

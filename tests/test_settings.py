@@ -12,7 +12,8 @@ from facepin.core.events import KeyPressed, PointerMoved
 from facepin.files import preferences
 from facepin.main_loop import ICON_SIZES
 from facepin.panels import theme
-from facepin.panels.requests import Choose, Command
+from facepin.panels.commands import Command
+from facepin.panels.requests import Choose
 from facepin.panels.theme import THEMES
 from facepin.resources import resource
 from facepin.session import navigation

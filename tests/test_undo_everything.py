@@ -18,7 +18,8 @@ from facepin.desk.library import Library
 from facepin.files.pose_file import write_pose
 from facepin.panels import library_requests as shelf
 from facepin.panels import requests
-from facepin.panels.requests import Command, Request
+from facepin.panels.commands import PICTURES, Command
+from facepin.panels.requests import Request
 from facepin.panels.view import View
 from facepin.session.edit import Edit
 from facepin.session.session import Session, Work
@@ -43,7 +44,7 @@ ASK_FOR_A_FILE = {
     Command.REFERENCE_FROM_FILE,
 }
 NOT_HERE = {
-    *requests.PICTURES,  # draw
+    *PICTURES,  # draw
     Command.SAVE_CHART,
     Command.CONTACT_SHEET,
     Command.POSE_PICTURES,

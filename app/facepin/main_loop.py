@@ -20,8 +20,8 @@ from facepin.frame.layout_file import LayoutFile
 from facepin.frame.painting import Painting
 from facepin.frame.routing import Router
 from facepin.panels import layout
+from facepin.panels.commands import Command
 from facepin.panels.file_dialog import has_native_dialogs
-from facepin.panels.requests import Command
 from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.resources import BUILTIN, resource

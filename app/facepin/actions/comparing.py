@@ -9,10 +9,10 @@ from facepin.core.errors import FacepinError
 from facepin.desk.desk import Desk
 from facepin.desk.papers import free_name
 from facepin.files.pose_file import read_pose
+from facepin.panels.commands import Command
 from facepin.panels.requests import (
     AddPane,
     ClosePane,
-    Command,
     KeepPane,
     RandomReference,
     Request,

@@ -1,7 +1,8 @@
 """How the program is set up, and what explains it; needs no open face."""
 
 from facepin.desk.desk import Desk
-from facepin.panels.requests import Choose, Command, Request
+from facepin.panels.commands import Command
+from facepin.panels.requests import Choose, Request
 from facepin.panels.view import CHOICES, PaletteView
 
 

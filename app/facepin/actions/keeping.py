@@ -8,7 +8,8 @@ from facepin.desk.desk import Desk
 from facepin.desk.opening import Lost
 from facepin.files.drafts import Leftover
 from facepin.files.scene_file import SUFFIX
-from facepin.panels.requests import Command, DiscardWork, OpenPath, Request, RestoreWork
+from facepin.panels.commands import Command
+from facepin.panels.requests import DiscardWork, OpenPath, Request, RestoreWork
 
 SCENES = ("Scenes", f"*{SUFFIX}")
 

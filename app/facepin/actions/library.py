@@ -10,6 +10,7 @@ from facepin.core.saved_pose import SavedPose
 from facepin.desk.desk import Desk
 from facepin.desk.library import Library
 from facepin.files.pose_library import replaced
+from facepin.panels.commands import Command
 from facepin.panels.library_requests import (
     ApplyPose,
     ComparePoses,
@@ -20,7 +21,7 @@ from facepin.panels.library_requests import (
     SavePose,
     StopBlending,
 )
-from facepin.panels.requests import Command, Request
+from facepin.panels.requests import Request
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 from facepin.session.shelf import Shelf, moved

@@ -3,7 +3,8 @@
 from facepin.core.mirror import Mirror
 from facepin.core.names import listed
 from facepin.desk.desk import Desk
-from facepin.panels.requests import Command, PairShapes, Request
+from facepin.panels.commands import Command
+from facepin.panels.requests import PairShapes, Request
 from facepin.session.edit import Edit
 from facepin.session.mirroring import Way, flipped_pose, mirrored_weights
 from facepin.session.session import Session

@@ -6,7 +6,8 @@ from dataclasses import replace
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pin, with_changed
 from facepin.desk.desk import Desk
-from facepin.panels.requests import Command, NamePin, RemovePins, Request, SelectPins, SetPins
+from facepin.panels.commands import Command
+from facepin.panels.requests import NamePin, RemovePins, Request, SelectPins, SetPins
 from facepin.session.edit import Edit
 from facepin.session.mirroring import twins_of
 from facepin.session.moving import amount

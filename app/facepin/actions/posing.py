@@ -1,7 +1,8 @@
 """The pose as a whole, and the way back."""
 
 from facepin.desk.desk import Desk
-from facepin.panels.requests import CancelEdit, Command, GoToStep, Request, SetControl
+from facepin.panels.commands import Command
+from facepin.panels.requests import CancelEdit, GoToStep, Request, SetControl
 
 
 def act(request: Request, desk: Desk) -> bool:

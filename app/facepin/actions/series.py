@@ -15,7 +15,8 @@ from facepin.desk.stage import Stage
 from facepin.files.animation import write_animation
 from facepin.files.atomic import atomic_write
 from facepin.gpu.picture import Image, png_bytes
-from facepin.panels.requests import CancelJob, Command, Request
+from facepin.panels.commands import Command
+from facepin.panels.requests import CancelJob, Request
 from facepin.session.filmstrip import Still
 from facepin.session.job import Job, Steps, beside
 from facepin.sheets import Pane, contact_columns, write_sheet

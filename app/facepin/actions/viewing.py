@@ -4,7 +4,8 @@ from math import radians
 
 from facepin.core.camera import frame_points
 from facepin.desk.desk import Desk
-from facepin.panels.requests import VIEW_COMMANDS, Command, Request, ShadeAs
+from facepin.panels.commands import VIEW_COMMANDS, Command
+from facepin.panels.requests import Request, ShadeAs
 
 STEP = radians(15)
 TURNS: dict[Command, tuple[float, float]] = {

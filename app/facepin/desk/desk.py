@@ -16,8 +16,8 @@ from facepin.desk.opening import Begun, Opener, Opening, SceneOpening
 from facepin.desk.portraits import Portraits
 from facepin.desk.scenes import Snapshot, shown_over
 from facepin.desk.stage import Stage
+from facepin.panels.commands import Command
 from facepin.panels.file_dialog import FileDialog, Kind
-from facepin.panels.requests import Command
 from facepin.panels.view import PaneView, View
 from facepin.session.drag import DragTool
 from facepin.session.edit import Edit

@@ -16,6 +16,7 @@ from facepin.files.drafts import Leftover
 from facepin.panels import layout
 from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
+from facepin.panels.commands import Command
 from facepin.panels.filmstrip import filmstrip_window
 from facepin.panels.guide import Hand, draw_guide
 from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint, symmetry_sign
@@ -29,7 +30,7 @@ from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import pins_panel, together
 from facepin.panels.recovery import WorkRow, lost_card, recovery_card
-from facepin.panels.requests import CancelJob, CancelLoading, Command, Request
+from facepin.panels.requests import CancelJob, CancelLoading, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import progress_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours

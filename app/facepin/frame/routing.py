@@ -21,7 +21,8 @@ from facepin.core.events import (
 )
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
-from facepin.panels.requests import PICTURES, Command, OpenPath, Request, command_for
+from facepin.panels.commands import PICTURES, Command, command_for
+from facepin.panels.requests import OpenPath, Request
 from facepin.panels.view import View
 from facepin.session.edit import Edit
 from facepin.session.navigation import PRESETS, Navigator

@@ -8,7 +8,7 @@ from imgui_bundle import imgui, implot
 from facepin.core.arrays import Floats
 from facepin.core.measures import e_rms, weight_errors
 from facepin.core.rig import Rig
-from facepin.panels.requests import Command
+from facepin.panels.commands import Command
 from facepin.panels.theme import Colour, Theme, pane_colours
 from facepin.session.session import Pane
 

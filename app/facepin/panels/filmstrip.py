@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
-from facepin.panels.requests import Command
+from facepin.panels.commands import Command
 from facepin.panels.tiles import Tile, draw_tile, shortened
 from facepin.session.filmstrip import Still
 

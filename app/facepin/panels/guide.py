@@ -11,8 +11,8 @@ from typing import Literal
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
+from facepin.panels.commands import Command, key_of
 from facepin.panels.key_caps import caps_width, draw_caps
-from facepin.panels.requests import Command, key_of
 from facepin.panels.theme import PICTURE, packed, tinted
 from facepin.session.navigation import Habit
 

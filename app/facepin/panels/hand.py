@@ -8,8 +8,8 @@ from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.pose import Pin
 from facepin.panels import layout
+from facepin.panels.commands import Command, key_of
 from facepin.panels.key_caps import caps_width, draw_caps
-from facepin.panels.requests import Command, key_of
 from facepin.panels.theme import PICTURE, VEIL, Colour, packed, tinted
 from facepin.session.box import Box
 from facepin.session.gesture import Gesture

@@ -7,8 +7,8 @@ from typing import get_args
 from imgui_bundle import imgui
 
 from facepin.core.events import Button, Modifiers
+from facepin.panels.commands import Command, Topic, keys_of
 from facepin.panels.key_caps import caps_width, draw_caps
-from facepin.panels.requests import Command, Topic, keys_of
 from facepin.panels.theme import Theme, packed
 from facepin.session.navigation import PRESETS, Habit, Motion, dolly, orbit, pan
 

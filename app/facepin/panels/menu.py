@@ -7,20 +7,10 @@ from imgui_bundle import imgui
 
 from facepin.panels import layout
 from facepin.panels.availability import is_on, title_of, why_not
+from facepin.panels.commands import VIEW_COMMANDS, Command, key_of
 from facepin.panels.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.pins import STROKES
-from facepin.panels.requests import (
-    VIEW_COMMANDS,
-    AddPane,
-    Choose,
-    ClosePane,
-    Command,
-    KeepPane,
-    OpenPath,
-    RandomReference,
-    Request,
-    key_of,
-)
+from facepin.panels.requests import AddPane, Choose, ClosePane, KeepPane, OpenPath, RandomReference, Request
 from facepin.panels.view import CHOICES, View
 from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session

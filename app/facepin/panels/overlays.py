@@ -3,7 +3,7 @@
 from imgui_bundle import imgui
 
 from facepin.core.shading import MODES
-from facepin.panels.requests import Command, key_of
+from facepin.panels.commands import Command, key_of
 from facepin.panels.view import Ghost, PaneView
 from facepin.session.navigation import Habit
 

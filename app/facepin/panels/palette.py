@@ -10,20 +10,19 @@ from facepin.core.fuzzy import match
 from facepin.core.saved_pose import SavedPose
 from facepin.core.shading import MODES
 from facepin.panels.availability import is_on, title_of, why_not
+from facepin.panels.commands import Command, key_of
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.library_requests import ApplyPose
 from facepin.panels.requests import (
     AddPane,
     Choose,
     ClosePane,
-    Command,
     KeepPane,
     OpenPath,
     RandomReference,
     Request,
     ShadeAs,
     UseSolver,
-    key_of,
 )
 from facepin.panels.theme import Theme, packed
 from facepin.panels.view import CHOICES, PaletteView, View

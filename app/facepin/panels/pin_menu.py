@@ -5,9 +5,10 @@ from collections.abc import Collection
 from imgui_bundle import imgui
 
 from facepin.core.pose import Pin
+from facepin.panels.commands import Command, key_of
 from facepin.panels.overlays import close_on_escape
 from facepin.panels.pins import FREEDOMS, SOFTEST, STIFFEST
-from facepin.panels.requests import Command, NamePin, RemovePins, Request, SetPins, key_of
+from facepin.panels.requests import NamePin, RemovePins, Request, SetPins
 from facepin.session.navigation import Habit
 
 

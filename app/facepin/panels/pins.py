@@ -9,8 +9,9 @@ from facepin.core.arrays import Points
 from facepin.core.measures import percent, pin_errors
 from facepin.core.pose import Freedom, Pin
 from facepin.core.rig import Rig
+from facepin.panels.commands import Command
 from facepin.panels.icons import eye_button, icon_width, lock_button
-from facepin.panels.requests import Command, NamePin, Request, SelectPins, SetPins
+from facepin.panels.requests import NamePin, Request, SelectPins, SetPins
 from facepin.panels.theme import Theme
 from facepin.panels.tiles import shortened
 

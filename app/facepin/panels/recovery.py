@@ -6,7 +6,8 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from facepin.panels.requests import CancelLoading, Command, DiscardWork, Request, RestoreWork
+from facepin.panels.commands import Command
+from facepin.panels.requests import CancelLoading, DiscardWork, Request, RestoreWork
 from facepin.panels.theme import Theme
 
 MOST_ROWS = 4

@@ -10,22 +10,11 @@ from facepin.core.pose import Pin
 from facepin.panels import layout
 from facepin.panels.commands import Command, key_of
 from facepin.panels.key_caps import caps_width, draw_caps
-from facepin.panels.theme import PICTURE, VEIL, Colour, packed, tinted
+from facepin.panels.theme import PICTURE, VEIL, packed, pop_picture_colours, push_picture_colours, tinted
 from facepin.session.box import Box
 from facepin.session.gesture import Gesture
 from facepin.session.navigation import Habit
 from facepin.session.stroke import Stroke
-
-_OVER_PICTURE: dict[int, Colour] = {
-    imgui.Col_.window_bg: PICTURE.popup,
-    imgui.Col_.border: PICTURE.border,
-    imgui.Col_.text: PICTURE.text,
-    imgui.Col_.text_disabled: PICTURE.text_dim,
-    imgui.Col_.button: PICTURE.frame_hovered,
-    imgui.Col_.button_hovered: PICTURE.frame_active,
-    imgui.Col_.button_active: PICTURE.accent_dim,
-}
-"""Of a window over the picture, whatever the theme of the panels."""
 
 
 def draw_gesture(gesture: Gesture | None, pixel_ratio: float, scale: float) -> None:
@@ -133,8 +122,7 @@ def hidden_pins(
     )
     imgui.set_next_window_pos(corner, imgui.Cond_.always, imgui.ImVec2(0, 1))
     imgui.set_next_window_bg_alpha(VEIL)
-    for index, colour in _OVER_PICTURE.items():
-        imgui.push_style_color(index, imgui.ImVec4(*colour))
+    push_picture_colours()
     imgui.push_style_var(imgui.StyleVar_.window_padding, imgui.ImVec2(8 * scale, 4 * scale))
     imgui.push_style_var(imgui.StyleVar_.window_rounding, 4 * scale)
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 0.0)
@@ -146,7 +134,7 @@ def hidden_pins(
     imgui.same_line()
     asked = imgui.button(f"Show ({key})" if key else "Show")
     imgui.end()
-    imgui.pop_style_color(len(_OVER_PICTURE))
+    pop_picture_colours()
     return Command.SHOW_PINS if asked else None
 
 

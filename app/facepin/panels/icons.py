@@ -1,25 +1,30 @@
-"""Small signs drawn as buttons, for which the font has no letters."""
+"""Small signs for which the font has no letters."""
 
 from math import pi
 
 from imgui_bundle import imgui
 
 
+def padlock(
+    draw: imgui.ImDrawList, x: float, y: float, half: float, colour: int, *, closed: bool = True
+) -> None:
+    """Draw a padlock with its middle at (x, y), `half` its height."""
+    width, top = 0.72 * half, y - 0.05 * half
+    body = imgui.ImVec2(x - width, top), imgui.ImVec2(x + width, y + 0.9 * half)
+    draw.add_rect_filled(*body, colour, 0.15 * half)
+    if not closed:
+        x += 0.9 * half
+    draw.path_line_to(imgui.ImVec2(x - 0.45 * half, top))
+    draw.path_arc_to(imgui.ImVec2(x, y - 0.45 * half), 0.45 * half, -pi, 0.0)
+    if closed:
+        draw.path_line_to(imgui.ImVec2(x + 0.45 * half, top))
+    draw.path_stroke(colour, 0.25 * half)
+
+
 def lock_button(name: str, closed: bool) -> bool:
     """Draw a padlock, dim where it is open; return whether it was clicked."""
-    clicked, x, y, size, colour, line = _button(name, closed)
-    draw = imgui.get_window_draw_list()
-    draw.add_rect_filled(
-        imgui.ImVec2(x - 0.30 * size, y - 0.04 * size),
-        imgui.ImVec2(x + 0.30 * size, y + 0.40 * size),
-        colour,
-        0.08 * size,
-    )
-    middle = imgui.ImVec2(x if closed else x + 0.34 * size, y - 0.08 * size)
-    draw.path_arc_to(middle, 0.19 * size, pi, 2 * pi, 10)
-    if closed:
-        draw.path_line_to(imgui.ImVec2(x + 0.19 * size, y))
-    draw.path_stroke(colour, line)
+    clicked, x, y, size, colour, _ = _button(name, closed)
+    padlock(imgui.get_window_draw_list(), x, y, 0.45 * size, colour, closed=closed)
     return clicked
 
 

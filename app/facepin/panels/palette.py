@@ -24,7 +24,7 @@ from facepin.panels.requests import (
     ShadeAs,
     UseSolver,
 )
-from facepin.panels.theme import Theme, packed
+from facepin.panels.theme import Theme, dim_sentence, packed
 from facepin.panels.view import CHOICES, PaletteView, View
 from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
@@ -319,8 +319,6 @@ def _foot(chosen: Entry | None) -> None:
     text = "" if chosen is None else chosen.help or chosen.title
     if chosen is not None and chosen.reason:
         text = f"Not now: {chosen.reason}."
-    imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
     imgui.begin_child("help", imgui.ImVec2(-1, 2 * imgui.get_text_line_height()))
-    imgui.text_wrapped(text)
+    dim_sentence(text)
     imgui.end_child()
-    imgui.pop_style_color()

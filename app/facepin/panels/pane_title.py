@@ -8,24 +8,13 @@ from facepin.core.camera import Viewport
 from facepin.panels import layout
 from facepin.panels.overlays import close_on_escape, overlay_items
 from facepin.panels.requests import ClosePane, KeepPane, Request, SelectPane, UseSolver
-from facepin.panels.theme import PICTURE, VEIL, Colour, packed
+from facepin.panels.theme import PICTURE, VEIL, Colour, packed, pop_picture_colours, push_picture_colours
 from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal
 from facepin.session.navigation import Habit
 from facepin.session.session import Pane
 from facepin.session.solving import SolverChoice
 from facepin.solvers import SOLVERS
-
-_COLOURS = {
-    imgui.Col_.window_bg: PICTURE.panel,
-    imgui.Col_.popup_bg: PICTURE.popup,
-    imgui.Col_.border: PICTURE.border,
-    imgui.Col_.text: PICTURE.text,
-    imgui.Col_.text_disabled: PICTURE.text_dim,
-    imgui.Col_.button: PICTURE.frame_hovered,
-    imgui.Col_.button_hovered: PICTURE.frame_active,
-    imgui.Col_.button_active: PICTURE.accent_dim,
-}
 
 
 def pane_title(
@@ -86,8 +75,7 @@ def pane_title(
     )
     imgui.set_next_window_bg_alpha(VEIL)
     asked: list[Request] = []
-    for index, of_picture in _COLOURS.items():
-        imgui.push_style_color(index, imgui.ImVec4(*of_picture))
+    push_picture_colours()
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 0)
     imgui.begin(f"##pane {at}", None, layout.SIGN)
     imgui.pop_style_var()
@@ -102,7 +90,7 @@ def pane_title(
     _figures(pane, appraisal)
     if not active and imgui.is_window_hovered() and imgui.is_mouse_clicked(0):
         asked.append(SelectPane(at))
-    imgui.pop_style_color(len(_COLOURS))
+    pop_picture_colours()
     if imgui.begin_popup("pane"):
         asked += _menu(at, pane, view, habit, has_reference=has_reference)
         imgui.end_popup()

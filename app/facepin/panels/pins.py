@@ -12,7 +12,7 @@ from facepin.core.rig import Rig
 from facepin.panels.commands import Command
 from facepin.panels.icons import eye_button, icon_width, lock_button
 from facepin.panels.requests import NamePin, Request, SelectPins, SetPins
-from facepin.panels.theme import Theme
+from facepin.panels.theme import Theme, dim_sentence
 from facepin.panels.tiles import shortened
 
 FAR = 1.0
@@ -83,11 +83,7 @@ def pins_panel(
     view.hovered = None
     request = _head(pins, selected, view)
     if not pins:
-        imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
-        imgui.text_wrapped(
-            "No pins yet: click the face to place one, or lay them on the landmarks of this rig."
-        )
-        imgui.pop_style_color()
+        dim_sentence("No pins yet: click the face to place one, or lay them on the landmarks of this rig.")
         if imgui.button(Command.LOAD_LANDMARKS.title):
             request = Command.LOAD_LANDMARKS
         return request

@@ -12,7 +12,7 @@ from facepin.core.measures import out_of_range
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import UseSolver
-from facepin.panels.theme import Theme
+from facepin.panels.theme import Theme, dim_sentence
 from facepin.panels.view import PaneView
 from facepin.session.session import Pane
 from facepin.session.solving import Solved
@@ -62,16 +62,10 @@ def solver_panel(
             request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
     imgui.separator()
     if pane.solved is None:
-        _sentence(f"{choice.kind.summary} Its figures appear here with the first drag.")
+        dim_sentence(f"{choice.kind.summary} Its figures appear here with the first drag.")
     else:
         _answer(rig, control, pane.pose, pane.solved, theme)
     return request
-
-
-def _sentence(text: str) -> None:
-    imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
-    imgui.text_wrapped(text)
-    imgui.pop_style_color()
 
 
 def _column() -> float:

@@ -205,3 +205,33 @@ def packed(colour: Colour, alpha: float = 1.0) -> int:
     """Return a colour as draw lists want it."""
     r, g, b, a = colour
     return int(imgui.get_color_u32(imgui.ImVec4(r, g, b, a * alpha)))
+
+
+_OVER_PICTURE: dict[int, Colour] = {
+    imgui.Col_.window_bg: PICTURE.popup,
+    imgui.Col_.popup_bg: PICTURE.popup,
+    imgui.Col_.border: PICTURE.border,
+    imgui.Col_.text: PICTURE.text,
+    imgui.Col_.text_disabled: PICTURE.text_dim,
+    imgui.Col_.button: PICTURE.frame_hovered,
+    imgui.Col_.button_hovered: PICTURE.frame_active,
+    imgui.Col_.button_active: PICTURE.accent_dim,
+}
+
+
+def push_picture_colours() -> None:
+    """Use the colours of what stands over the picture, whatever the theme of the panels."""
+    for index, colour in _OVER_PICTURE.items():
+        imgui.push_style_color(index, imgui.ImVec4(*colour))
+
+
+def pop_picture_colours() -> None:
+    """Go back to the colours before `push_picture_colours`."""
+    imgui.pop_style_color(len(_OVER_PICTURE))
+
+
+def dim_sentence(text: str) -> None:
+    """Draw words that are to be read once, in as many lines as they need."""
+    imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
+    imgui.text_wrapped(text)
+    imgui.pop_style_color()

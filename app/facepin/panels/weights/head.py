@@ -7,6 +7,7 @@ from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.measures import active as active_shapes
 from facepin.core.rig import Rig
+from facepin.panels.icons import padlock
 from facepin.panels.requests import CancelEdit
 from facepin.panels.weights import icons
 from facepin.panels.weights.gesture import Wish
@@ -68,7 +69,7 @@ def _counter(flag: Flag, count: int, scale: float) -> bool:
     clicked = imgui.invisible_button(flag, ImVec2(16 * scale + imgui.calc_text_size(text).x, height))
     ink = imgui.get_color_u32(imgui.Col_.check_mark if imgui.is_item_hovered() else imgui.Col_.text_disabled)
     draw = imgui.get_window_draw_list()
-    icon = {"lock": icons.lock, "mute": icons.mute, "solo": icons.solo}[flag]
+    icon = {"lock": padlock, "mute": icons.mute, "solo": icons.solo}[flag]
     icon(draw, at.x + 6 * scale, at.y + height / 2, 6 * scale, ink)
     draw.add_text(ImVec2(at.x + 14 * scale, at.y + imgui.get_style().frame_padding.y), ink, text)
     many = "it" if count == 1 else "them"

@@ -1,23 +1,13 @@
-"""Small signs, drawn: lock, mute, solo, reset, and the triangle of a header."""
+"""Small signs: mute, solo, reset, and the triangle of a header.
 
-from collections.abc import Callable
+Each takes a draw list, x and y of its middle, half its height and a packed colour.
+"""
+
 from math import pi
 
 from imgui_bundle import imgui
 
 ImVec2 = imgui.ImVec2
-Icon = Callable[[imgui.ImDrawList, float, float, float, int], None]
-"""(draw list, x and y of the middle, half its height, packed colour)."""
-
-
-def lock(draw: imgui.ImDrawList, x: float, y: float, half: float, colour: int) -> None:
-    """A padlock."""
-    width, top = 0.72 * half, y - 0.05 * half
-    draw.add_rect_filled(ImVec2(x - width, top), ImVec2(x + width, y + 0.9 * half), colour, 0.15 * half)
-    draw.path_line_to(ImVec2(x - 0.45 * half, top))
-    draw.path_arc_to(ImVec2(x, y - 0.45 * half), 0.45 * half, -pi, 0.0)
-    draw.path_line_to(ImVec2(x + 0.45 * half, top))
-    draw.path_stroke(colour, 0.25 * half)
 
 
 def mute(draw: imgui.ImDrawList, x: float, y: float, half: float, colour: int) -> None:

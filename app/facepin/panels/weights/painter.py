@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
+from facepin.panels.icons import padlock
 from facepin.panels.theme import Colour, Theme, packed
 from facepin.panels.weights import icons
 from facepin.panels.weights.columns import ICONS, Columns, Zone
@@ -134,7 +135,7 @@ class Painter:
         for place, (name, is_set) in enumerate(zip(ICONS, flags, strict=True)):
             if is_set or hovered:
                 ink = self.inks.text if name == zone else self.inks.mark if is_set else self.inks.faint
-                icon = (icons.solo, icons.mute, icons.lock)[place]
+                icon = (icons.solo, icons.mute, padlock)[place]
                 icon(self.draw, self.columns.icon(place), middle, 6 * self.columns.scale, ink)
                 first = min(first, place)
         return self.columns.name + self.columns.names - self.columns.icon(first) + 11 * self.columns.scale
@@ -208,7 +209,7 @@ class Painter:
             share = self._share(group, name)
             if share or zone is not None:
                 ink = inks.text if name == zone else inks.mark if share == 1 else inks.faint
-                icon = (icons.reset, icons.mute, icons.lock)[place]
+                icon = (icons.reset, icons.mute, padlock)[place]
                 icon(self.draw, at.icon(place), middle, 6 * at.scale, ink)
 
     def _share(self, group: Group, icon: Zone) -> float:

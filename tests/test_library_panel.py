@@ -11,8 +11,10 @@ from imgui_bundle import imgui
 
 from driver import App, running
 from facepin.core.arrays import frozen
+from facepin.core.errors import FacepinError
 from facepin.core.events import PointerMoved, PointerPressed, PointerReleased, Stirred
 from facepin.core.pose import Pin, Pose
+from facepin.desk import portraits
 from facepin.files import write_model
 from facepin.panels.commands import Command
 from facepin.panels.library_requests import (
@@ -376,3 +378,20 @@ def test_poses_of_the_program_s_own_faces_are_kept_among_the_settings(name: str,
     face = None if name == "ada" else resource("assets", f"faces/{name}.npz")
     with running(face, size=(500, 400), settings_folder=tmp_path) as app:
         assert app.desk.library.folder.is_relative_to(tmp_path)
+
+
+def test_a_picture_that_cannot_be_stored_is_shown_all_the_same(
+    rig: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise FacepinError("smile.png: no space left")
+
+    monkeypatch.setattr(portraits, "write_thumbnail", full)
+    with library(rig, tmp_path) as app:
+        assert app.desk.library is not None and app.desk.portraits is not None
+        app.until(lambda: app.desk.refined)
+        assert all(app.desk.portraits.tile(pose.weights) is not None for pose in app.desk.library.poses)
+        remarks: list[str] = []
+        monkeypatch.setattr(imgui, "set_item_tooltip", remarks.append)
+        settle(app)
+        assert any("no space left" in remark for remark in remarks)

@@ -196,9 +196,9 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
             lambda pose: portraits.tile(pose.weights, library.picture_file(pose)),
             panes[min(session.active, len(panes) - 1)].pose.weights,
             library.folder,
-            library.remark,
+            "\n".join(filter(None, [library.remark, portraits.complaint])),
             desk.view.theme,
-            (*library.complaints, *filter(None, [portraits.complaint])),
+            library.complaints,
             library.is_reading,
         )
         edit, wishes = library_panel(shown, desk.view.library, scale)

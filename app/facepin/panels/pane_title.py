@@ -16,6 +16,13 @@ from facepin.session.session import Pane
 from facepin.session.solving import SolverChoice
 from facepin.solvers import SOLVERS
 
+LOW = 28.0
+"""Height of a pane, in letters, below which its title is a single line: the face needs the room."""
+FIGURES = (
+    "Mean distance of the pins from their goals, and largest move of a vertex that should rest,\n"
+    "both in per cent of the face height; time of the last solve."
+)
+
 
 def pane_title(
     at: int,
@@ -83,11 +90,12 @@ def pane_title(
     if imgui.small_button(f"{pane.choice.kind.title}##title"):
         imgui.open_popup("pane")
     imgui.pop_style_color()
-    imgui.set_item_tooltip("Solver, overlays, keep or close this pane")
-    if short := _short(pane.choice):
+    low, settings = bottom - top < LOW * imgui.get_font_size(), _short(pane.choice)
+    imgui.set_item_tooltip(f"{settings}\nSolver, overlays, keep or close this pane".strip())
+    if settings and not low:
         imgui.same_line()
-        imgui.text_disabled(short)
-    _figures(pane, appraisal)
+        imgui.text_disabled(settings)
+    _figures(pane, appraisal, right - 12 * scale if low else 0.0)
     if not active and imgui.is_window_hovered() and imgui.is_mouse_clicked(0):
         asked.append(SelectPane(at))
     pop_picture_colours()
@@ -114,24 +122,28 @@ def _short(choice: SolverChoice) -> str:
     return ", ".join(words + ["within limits"] * choice.keep_limits)
 
 
-def _figures(pane: Pane, appraisal: Appraisal) -> None:
-    """Two short lines: how far off, how calm, how many; what is out of range stands out."""
-    time = "" if pane.solved is None else f"{pane.solved.seconds * 1e3:.2f} ms"
-    imgui.text_colored(
-        imgui.ImVec4(*PICTURE.text),
-        f"pins {appraisal.pin_error:.2f} %   far {appraisal.far_motion:.2f} %   {time}",
-    )
-    imgui.set_item_tooltip(
-        "Mean distance of the pins from their goals, and largest move of a vertex that should rest,\n"
-        "both in per cent of the face height; time of the last solve."
-    )
-    imgui.text_colored(imgui.ImVec4(*PICTURE.text), f"{appraisal.active} active")
+def _figures(pane: Pane, appraisal: Appraisal, right: float) -> None:
+    """Say how far off, how calm, how many; what is out of range stands out.
+
+    In two lines below the title, or beside it as far as `right`, where that is not 0.
+    """
+    time = "" if pane.solved is None else f"   {pane.solved.seconds * 1e3:.2f} ms"
+    error, far = f"{appraisal.pin_error:.2f}", f"{appraisal.far_motion:.2f}"
+    figures = [
+        (f"pins {error} %   far {far} %{time}", PICTURE.text),
+        (f"{appraisal.active} active", PICTURE.text),
+    ]
     if appraisal.out_of_range:
-        imgui.same_line()
-        imgui.text_colored(imgui.ImVec4(*PICTURE.warning), f"{appraisal.out_of_range} out of range")
+        figures.append((f"{appraisal.out_of_range} out of range", PICTURE.warning))
     if appraisal.e_rms is not None:
-        imgui.same_line()
-        imgui.text_colored(imgui.ImVec4(*PICTURE.text), f"E_RMS {appraisal.e_rms:.3f}")
+        figures.append((f"E_RMS {appraisal.e_rms:.3f}", PICTURE.text))
+    for at, (text, colour) in enumerate(figures):
+        beside = imgui.get_item_rect_max().x + imgui.get_style().item_spacing.x
+        if at > 1 if right == 0 else beside + imgui.calc_text_size(text).x <= right:
+            imgui.same_line()
+        imgui.text_colored(imgui.ImVec4(*colour), text)
+        if at == 0:
+            imgui.set_item_tooltip(FIGURES)
 
 
 def _menu(at: int, pane: Pane, view: PaneView, habit: Habit, *, has_reference: bool) -> list[Request]:

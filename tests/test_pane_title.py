@@ -1,0 +1,24 @@
+"""The titles of several panes leave room for the faces."""
+
+import pytest
+from imgui_bundle import imgui
+
+from driver import running
+from facepin.core.events import PointerMoved
+
+
+@pytest.mark.parametrize(
+    ("solvers", "size", "lines"), [(2, (1280, 720), 3), (4, (1280, 720), 1), (4, (700, 480), 3)]
+)
+def test_a_title_takes_as_many_lines_as_the_pane_allows(
+    solvers: int, size: tuple[int, int], lines: int
+) -> None:
+    keys = ("transpose", "tikhonov", "pseudo_inverse", "hybrid")[:solvers]
+    with running(solver=",".join(keys), size=size) as app:
+        app.step(PointerMoved(5, 5), frames=2)
+        line = imgui.get_text_line_height_with_spacing()
+        padding = 2 * imgui.get_style().window_padding.y
+        for at, viewport in enumerate(app.frame.viewports):
+            window = imgui.internal.find_window_by_name(f"##pane {at}")
+            assert window.size.y <= lines * line + padding + 4
+            assert window.size.x <= viewport.width

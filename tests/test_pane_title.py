@@ -8,7 +8,7 @@ from facepin.core.events import PointerMoved
 
 
 @pytest.mark.parametrize(
-    ("solvers", "size", "lines"), [(2, (1280, 720), 3), (4, (1280, 720), 1), (4, (700, 480), 3)]
+    ("solvers", "size", "lines"), [(2, (1280, 720), 3), (4, (1280, 720), 1), (4, (700, 480), 4)]
 )
 def test_a_title_takes_as_many_lines_as_the_pane_allows(
     solvers: int, size: tuple[int, int], lines: int

@@ -127,22 +127,20 @@ def _figures(pane: Pane, appraisal: Appraisal, right: float) -> None:
 
     In two lines below the title, or beside it as far as `right`, where that is not 0.
     """
-    time = "" if pane.solved is None else f"   {pane.solved.seconds * 1e3:.2f} ms"
-    error, far = f"{appraisal.pin_error:.2f}", f"{appraisal.far_motion:.2f}"
-    figures = [
-        (f"pins {error} %   far {far} %{time}", PICTURE.text),
-        (f"{appraisal.active} active", PICTURE.text),
-    ]
+    errors = [f"pins {appraisal.pin_error:.2f} %", f"far {appraisal.far_motion:.2f} %"]
+    if pane.solved is not None:
+        errors.append(f"{pane.solved.seconds * 1e3:.2f} ms")
+    figures = [(text, PICTURE.text) for text in (*errors, f"{appraisal.active} active")]
     if appraisal.out_of_range:
         figures.append((f"{appraisal.out_of_range} out of range", PICTURE.warning))
     if appraisal.e_rms is not None:
         figures.append((f"E_RMS {appraisal.e_rms:.3f}", PICTURE.text))
     for at, (text, colour) in enumerate(figures):
         beside = imgui.get_item_rect_max().x + imgui.get_style().item_spacing.x
-        if at > 1 if right == 0 else beside + imgui.calc_text_size(text).x <= right:
+        if at not in (0, len(errors)) if right == 0 else beside + imgui.calc_text_size(text).x <= right:
             imgui.same_line()
         imgui.text_colored(imgui.ImVec4(*colour), text)
-        if at == 0:
+        if at < len(errors):
             imgui.set_item_tooltip(FIGURES)
 
 

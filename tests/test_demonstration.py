@@ -9,12 +9,16 @@ from PIL import Image
 
 import facepin.figures.demonstration
 import facepin.gpu.picture
+import facepin.window
+from facepin.__main__ import main
 from facepin.core.errors import FacepinError
 from facepin.figures.demonstration import delight, demonstrate
 from facepin.figures.posing import DELIGHT
 from facepin.files.pose_file import read_pose
 from facepin.options import open_with_bar
+from facepin.resources import BUILTIN, resource
 from facepin.solvers import SOLVERS
+from facepin.window import NoDisplay
 
 
 def test_pins_sit_at_chin_mouth_corners_and_brow() -> None:
@@ -68,3 +72,20 @@ def test_a_folder_that_cannot_be_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(FacepinError, match="cannot be made a folder"):
         demonstrate(tmp_path / "file")
+
+
+@pytest.mark.parametrize("words", [["--pins", "none.json"], ["--compare", "sparse,hybrid"], ["RIG"]])
+def test_what_the_demonstration_would_not_show_is_refused_without_a_screen(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    def none(*_: object) -> None:
+        raise NoDisplay("there is no display")
+
+    monkeypatch.setattr(facepin.window, "Window", none)
+    monkeypatch.chdir(tmp_path)
+    rig = resource("assets", BUILTIN)
+    assert main([str(rig) if word == "RIG" else word for word in words]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "no display" in error and "render" in error
+    assert not list(tmp_path.iterdir())

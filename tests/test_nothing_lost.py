@@ -20,9 +20,11 @@ from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested, FilesDropped, PointerMoved
 from facepin.files.drafts import leftovers
 from facepin.files.scene_file import Scene, read_scene
+from facepin.frame import interface
 from facepin.panels.commands import Command
 from facepin.panels.guide import Guide
 from facepin.panels.requests import AddPane, CancelLoading, DiscardWork, OpenPath, RestoreWork
+from facepin.resources import builtin_faces
 from facepin.session.edit import Edit
 from facepin.session.solving import choose
 from small_rigs import sheet
@@ -241,7 +243,7 @@ def test_quitting_asks_nothing_and_the_next_start_offers_what_was_left(rig: Path
 def test_another_rig_leaves_the_work_behind_and_it_can_be_discarded(rig: Path, tmp_path: Path) -> None:
     with small(rig, settings_folder=tmp_path) as app:
         set_first(app, 0.5)
-        app.ask(Command.OPEN_BUILTIN)
+        app.ask(OpenPath(builtin_faces()["ada"]))
         opened(app)
         assert "The unsaved work on sheet is kept" in app.desk.message
         set_first(app, 0.25)
@@ -264,11 +266,12 @@ def test_a_fault_in_a_frame_keeps_the_work(
     rig: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with pytest.raises(ZeroDivisionError), small(rig, settings_folder=tmp_path) as app:
-        app.desk.apply(Edit("Set", True, weights=np.full(4, 0.125)))
+        app.desk.apply(Edit("Set", True, weights=np.array([0.125, 1e-17, 0.5, 0.0])))
         monkeypatch.setattr("facepin.frame.interface.panels", lambda *_: 1 // 0)
         app.step(PointerMoved(5, 5))
     (leftover,), _ = leftovers(tmp_path / "autosave")
     assert step_of(leftover.scene) == 0.125
+    assert "2 active" in interface._work_row(leftover).about, "as the panel counts them"
 
 
 def test_a_scene_whose_rig_is_gone_waits_until_it_is_shown(rig: Path, tmp_path: Path) -> None:
@@ -286,8 +289,10 @@ def test_a_scene_whose_rig_is_gone_waits_until_it_is_shown(rig: Path, tmp_path: 
         with small(scene, wait=False) as app:
             frames(app)
             assert app.desk.stage is None
+            answer(app, Command.OPEN_FILE, scene)
+            assert app.desk.dialog is None, "a card asks for the rig"
             assert f"one.facepin: its rig moved was not found, looked for {moved}" in app.desk.message
-            app.ask(Command.OPEN_BUILTIN)
+            app.ask(OpenPath(builtin_faces()["ada"]))
             opened(app)
             assert app.desk.opener.lost is None
             app.ask(OpenPath(scene))
@@ -379,7 +384,7 @@ def test_on_a_full_disk_the_work_stays_and_quitting_warns_once(
             answer(app, Command.SAVE_AS, tmp_path / "one.facepin")
             assert app.desk.is_error
             assert "*" in app.desk.title
-            app.ask(Command.OPEN_BUILTIN)
+            app.ask(OpenPath(builtin_faces()["ada"]))
             app.until(lambda: app.desk.loading is None)
             frames(app)
             assert "stays open" in app.desk.message

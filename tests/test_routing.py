@@ -13,6 +13,7 @@ from facepin.core.events import (
     PointerPressed,
     PointerReleased,
 )
+from facepin.panels.commands import Command
 from facepin.panels.requests import AddPane
 from facepin.session.edit import Edit
 from facepin.session.solving import choose
@@ -137,3 +138,23 @@ def test_escape_ends_one_thing_at_a_time(over: str) -> None:
             assert not getattr(app.desk.view, over)
         escape()
         assert not app.desk.tool.selected
+
+
+def test_function_keys_are_heard_while_something_is_typed() -> None:
+    with running() as app:
+        app.ask(Command.SAVE_POSE)  # asks for a path, in a line to type in
+        app.step(PointerMoved(5, 5), frames=4)
+        assert imgui.get_io().want_text_input
+        app.step(KeyPressed("w"), KeyPressed("f4"), frames=2)
+        assert app.desk.view.chart
+        assert not app.desk.view.panes[0].wireframe
+
+
+def test_delete_says_that_nothing_is_selected() -> None:
+    with running() as app:
+        app.press(*skin(app))
+        app.release(*skin(app))
+        app.desk.tool.selected = frozenset()
+        app.key("delete")
+        assert app.desk.message == "No pin is selected"
+        assert len(app.session.pose.pins) == 1

@@ -79,19 +79,22 @@ def test_a_filmstrip_shows_the_steps_that_changed_the_pose() -> None:
     session.apply(Edit("Set one", True, weights=weights(0)))
     session.set_reference(weights(1))
     session.arrange("Remove a pose", {"smile": None})
+    pin = Pin(3, (0.0, 0.0, 0.0))
+    session.apply(Edit("Place", True, (pin,)))
+    session.apply(Edit("Lock", True, (replace(pin, locked=True),)))
     session.apply(Edit("Set two", True, weights=weights(1)))
     session.apply(Edit("Set three", True, weights=weights(2)))
     session.undo()
     session.apply(Edit("Step of a gesture", False, weights=weights(3)))
     strip = Filmstrip()
     stills = strip.stills(session)
-    assert [still.label for still in stills] == ["Start", "Set one", "Set two"]
+    assert [still.label for still in stills] == ["Start", "Set one", "Place", "Set two"]
     assert stills[-1].pose.weights[1] == 0.9
     session.apply(Edit("Step of a gesture", False, weights=weights(2)))
     assert strip.stills(session) is stills
     session.undo()  # the gesture
     session.undo()
-    assert len(strip.stills(session)) == 2
+    assert len(strip.stills(session)) == 3
 
 
 def test_a_filmstrip_shows_muted_shapes_as_they_were_shown() -> None:

@@ -50,7 +50,6 @@ NOT_HERE = {
     Command.POSE_PICTURES,
     Command.TURNTABLE,
     Command.SAVE_FILMSTRIP,
-    Command.OPEN_BUILTIN,  # begins another session
     Command.QUIT,
 }
 
@@ -115,9 +114,6 @@ MAKERS: dict[type, Maker] = {
     requests.AddPane: lambda random, _: requests.AddPane(random_choice(random)),
     requests.ClosePane: lambda random, session: requests.ClosePane(int(random.integers(len(session.panes)))),
     requests.KeepPane: lambda random, session: requests.KeepPane(int(random.integers(len(session.panes)))),
-    requests.SelectPane: lambda random, session: requests.SelectPane(
-        int(random.integers(len(session.panes)))
-    ),
     requests.RandomReference: lambda random, _: requests.RandomReference(int(random.integers(1, 4))),
     requests.SetPins: lambda random, session: requests.SetPins(
         some_pins(random, session),

@@ -15,7 +15,8 @@ from facepin import __version__
 from facepin.commands import COMMANDS
 from facepin.core.errors import FacepinError
 from facepin.files.scene_file import SUFFIX
-from facepin.options import first_pose, solver_choices
+from facepin.options import first_pose, rig_path, solver_choices
+from facepin.resources import BUILTIN, builtin_faces
 
 if TYPE_CHECKING:
     from facepin.session.session import Session
@@ -60,7 +61,11 @@ def _window_parser() -> ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"facepin {__version__}")
     parser.add_argument(
-        "rig", nargs="?", type=Path, metavar="RIG", help="face or scene to open (default: the built-in face)"
+        "rig",
+        nargs="?",
+        type=rig_path,
+        metavar="RIG",
+        help=f"face or scene to open, or one of {', '.join(builtin_faces())} (default: {Path(BUILTIN).stem})",
     )
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
     parser.add_argument("--solver", metavar="KEY", help="solver to begin with (default: the last one used)")
@@ -90,7 +95,7 @@ def _window(options: Namespace) -> None:
         from facepin.main_loop import Start, run
         from facepin.window import NoDisplay, Window
     except ImportError as error:  # a system without X11 has no library to link the window to
-        _demonstrate(f"no window is possible here ({error})")
+        _demonstrate(f"no window is possible here ({error})", options)
         return
     settings = user_config_path("facepin", appauthor=False)
     remembered = read_preferences(settings / "preferences.json")[0].solver
@@ -112,14 +117,22 @@ def _window(options: Namespace) -> None:
     try:
         window = Window("Facepin", (1280, 720))
     except NoDisplay as error:
-        _demonstrate(str(error))
+        _demonstrate(str(error), options)
         return
     with window:
         run(window, start)
 
 
-def _demonstrate(reason: str) -> None:
-    """Do without a window: say why, and run the demonstration."""
+def _demonstrate(reason: str, options: Namespace) -> None:
+    """Do without a window: say why, and run the demonstration.
+
+    Raises
+    ------
+    FacepinError
+        When something was asked for that the demonstration would not show.
+    """
+    if any(value is not None for value in vars(options).values()):
+        raise FacepinError(f"{reason}; without one there are the commands {', '.join(COMMANDS)}")
     from facepin.figures.demonstration import demonstrate
 
     folder = demonstrate(Path("facepin-demonstration"))

@@ -8,7 +8,7 @@ from facepin.core.camera import View
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
-from facepin.resources import BUILTIN, resource
+from facepin.resources import BUILTIN, builtin_faces, resource
 from facepin.session.solving import SolverChoice, choose
 from facepin.solvers import SOLVERS
 from facepin.solvers.settings import parse_settings
@@ -74,9 +74,18 @@ def first_pose(rig: Rig, pose: Path | None, pins: Path | None) -> Pose:
 def add_rig(parser: ArgumentParser) -> None:
     """Add RIG and --neutral."""
     parser.add_argument(
-        "rig", type=Path, metavar="RIG", help="a .glb, .gltf, .vrm, .npz or folder of .obj files"
+        "rig",
+        type=rig_path,
+        metavar="RIG",
+        help=f"a .glb, .gltf, .vrm, .npz or folder of .obj files; or {', '.join(builtin_faces())}",
     )
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
+
+
+def rig_path(text: str) -> Path:
+    """Read the path of a rig, or the name of a built-in face where there is no such file."""
+    path = Path(text)
+    return path if path.exists() else builtin_faces().get(text, path)
 
 
 def picture_size(text: str) -> tuple[int, int]:

@@ -1,5 +1,6 @@
 """Finds shaders/ and assets/: beside this file in an installed wheel, at the top of a checkout otherwise."""
 
+from functools import cache
 from pathlib import Path
 
 BUILTIN = "faces/ada.npz"
@@ -7,6 +8,12 @@ BUILTIN = "faces/ada.npz"
 
 _PACKAGE = Path(__file__).resolve().parent
 _CHECKOUT = _PACKAGE.parent.parent
+
+
+@cache
+def builtin_faces() -> dict[str, Path]:
+    """Return the faces that come with the program, by name."""
+    return {path.stem: path for path in sorted(resource("assets", BUILTIN).parent.glob("*.npz"))}
 
 
 def resource(folder: str, name: str) -> Path:

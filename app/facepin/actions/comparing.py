@@ -16,7 +16,6 @@ from facepin.panels.requests import (
     KeepPane,
     RandomReference,
     Request,
-    SelectPane,
     UseSolver,
 )
 from facepin.session.reference import random_reference
@@ -29,9 +28,6 @@ def act(request: Request, desk: Desk) -> bool:
     if session is None:
         return False
     match request:
-        case SelectPane(pane):
-            session.active = pane
-            return True
         case UseSolver(pane, choice, final):
             if (before := session.panes[pane].choice).kind is not choice.kind:
                 desk.view.panes[pane].used[before.kind.key] = before

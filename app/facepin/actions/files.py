@@ -11,7 +11,6 @@ from facepin.files.pose_file import read_pose, write_pose
 from facepin.panels.commands import Command
 from facepin.panels.file_dialog import Kind
 from facepin.panels.requests import CancelLoading, OpenPath, Request
-from facepin.resources import BUILTIN, resource
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 
@@ -31,8 +30,6 @@ def act(request: Request, desk: Desk) -> bool:
             desk.opener.open(path)
         case CancelLoading():
             desk.opener.cancel()
-        case Command.OPEN_BUILTIN:
-            desk.opener.open(resource("assets", BUILTIN))
         case Command.OPEN_FILE | Command.OPEN_FOLDER:
             kind: Kind = "open file" if request is Command.OPEN_FILE else "open folder"
             desk.ask(kind, request, desk.folder, ALL if kind == "open file" else (), desk.opener.open)

@@ -38,7 +38,7 @@ def act(request: Request, desk: Desk) -> bool:
             _name(desk, pins, vertex, " ".join(name.split()))
         case RemovePins(vertices):
             _remove(desk, pins, meant(vertices))
-        case Command.DELETE_PINS:
+        case Command.DELETE_PINS if selected:
             _remove(desk, pins, meant(selected))
         case Command.CLEAR_PINS:
             _remove(desk, pins, {pin.vertex for pin in pins})
@@ -47,7 +47,7 @@ def act(request: Request, desk: Desk) -> bool:
             _set(desk, session, SetPins(selected, locked=not locked))
         case Command.HIDE_PINS if selected:
             _set(desk, session, SetPins(selected, hidden=True))
-        case Command.LOCK_PINS | Command.HIDE_PINS:
+        case Command.DELETE_PINS | Command.LOCK_PINS | Command.HIDE_PINS:
             desk.say("No pin is selected")
         case Command.SHOW_PINS:
             hidden = frozenset(pin.vertex for pin in pins if pin.hidden)

@@ -180,7 +180,9 @@ class Desk:
         self.say("")
         with self.reporting():
             question.then(dialog.path)
-        if self.is_error and self._question is None and dialog.can_ask_again:
+        # Of a scene whose rig is missing a card tells, which asks for the rig.
+        bad = self.is_error and self.opener.lost is None
+        if bad and self._question is None and dialog.can_ask_again:
             dialog.ask_again(self.message)
             self._question = question
 

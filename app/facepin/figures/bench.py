@@ -28,6 +28,7 @@ from facepin.figures.compare import context_or_word, progress_line
 from facepin.figures.frame_times import FrameTime, frame_times, frames_as_json, frames_as_table
 from facepin.figures.stand_ins import TABLE_1, stand_in, stand_in_name
 from facepin.files import open_rig
+from facepin.options import rig_path
 from facepin.resources import BUILTIN, resource
 from facepin.session.solving import PinSolver, SolverChoice, choose
 
@@ -72,7 +73,7 @@ class BenchRow:
 def add_options(parser: ArgumentParser) -> None:
     """Declare the options of `facepin bench`."""
     parser.add_argument(
-        "rigs", type=Path, nargs="*", metavar="RIG", help="faces to measure (default: the built-in one)"
+        "rigs", type=rig_path, nargs="*", metavar="RIG", help="faces to measure (default: the built-in one)"
     )
     parser.add_argument("--json", action="store_true", help="print JSON only")
 

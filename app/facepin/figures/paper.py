@@ -14,8 +14,8 @@ from facepin.figures.page import Remake, Table, page
 from facepin.figures.pictures import Painter
 from facepin.figures.stand_ins import TABLE_1, stand_in, stand_in_name
 from facepin.files.atomic import atomic_write
-from facepin.options import open_with_bar
-from facepin.resources import BUILTIN, resource
+from facepin.options import open_with_bar, rig_path
+from facepin.resources import builtin_faces
 
 if TYPE_CHECKING:
     import moderngl
@@ -37,7 +37,11 @@ FIGURES: tuple[Callable[[remakes.Studio], Remake], ...] = (
 def add_options(parser: ArgumentParser) -> None:
     """Declare the options of `facepin figures`."""
     parser.add_argument(
-        "rigs", type=Path, nargs="*", metavar="RIG", help="rigs to make them on, besides the built-in face"
+        "rigs",
+        type=rig_path,
+        nargs="*",
+        metavar="RIG",
+        help="rigs to make them on, besides the built-in face",
     )
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of random poses (default: 1)")
     parser.add_argument("--no-table", action="store_true", help="leave out Table 1, which measures times")
@@ -107,7 +111,7 @@ def _heading(rig: Rig) -> str:
 
 def _production_face() -> list[Rig]:
     """Return the first built-in face with enough shapes for Figure 5, if there is one."""
-    for path in sorted(resource("assets", BUILTIN).parent.glob("*.npz")):
+    for path in builtin_faces().values():
         rig = open_with_bar(path)
         if rig.shape_count > remakes.MANY_SHAPES:
             return [rig]

@@ -5,9 +5,11 @@ from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
+import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
+from facepin.core.measures import active
 from facepin.core.pose import Pose
 from facepin.core.shape_motion import movers
 from facepin.desk.desk import Desk
@@ -229,9 +231,9 @@ def _work_row(leftover: Leftover) -> WorkRow:
     scene = leftover.scene
     name = scene.rig.name if scene.of is None else f"{scene.of.name} ({scene.rig.name})"
     pins, panes = len(scene.pins), len(scene.panes)
-    shapes = len(scene.panes[scene.active].weights)
+    shapes = active(np.array([*scene.panes[scene.active].weights.values()]))
     about = [f"{leftover.time:%d %b %H:%M}"]
-    about += [f"{shapes} shape{'' if shapes == 1 else 's'}", f"{pins} pin{'' if pins == 1 else 's'}"]
+    about += [f"{shapes} active", f"{pins} pin{'' if pins == 1 else 's'}"]
     about += [f"{panes} panes"] * (panes > 1)
     return WorkRow(leftover.draft.path, name, "  ".join(about))
 

@@ -29,6 +29,8 @@ from facepin.session.navigation import PRESETS, Navigator
 from facepin.session.nudge import goes_on
 from facepin.session.sight import DEAD_ZONE, Pixel, Sight, pin_at
 
+FUNCTION_KEYS = frozenset(f"f{number}" for number in range(1, 13))
+
 
 class Router:
     """Remembers which pane the mouse went down in: that pane keeps the drag."""
@@ -87,7 +89,8 @@ class Router:
                 command = command_for(event, desk.view.habit)
                 if desk.view.palette is not None and command is not Command.PALETTE:
                     return None
-                if imgui.get_io().want_text_input and command is not Command.PALETTE:
+                silent = command is Command.PALETTE or event.key in FUNCTION_KEYS
+                if imgui.get_io().want_text_input and not silent:
                     return None  # it is being written; only what writes nothing is heard everywhere
                 in_hand = desk.tool.holding or self.navigator.holding
                 # What a gesture began with must not change under it; a picture of it may be taken.

@@ -8,7 +8,6 @@ WITHOUT_FACE = frozenset(
     {
         Command.OPEN_FILE,
         Command.OPEN_FOLDER,
-        Command.OPEN_BUILTIN,
         Command.LOCATE_RIG,
         Command.UNSAVED_WORK,
         Command.QUIT,

@@ -24,7 +24,6 @@ class Command(Enum):
         "File",
         "Opens a face whose neutral and shapes are one OBJ file each.",
     )
-    OPEN_BUILTIN = "Open the built-in face", (), "File", "Opens the face that comes with Facepin."
     LOAD_POSE = (
         "Load pose…",
         ("Ctrl+L",),

@@ -80,12 +80,15 @@ class FileDialog:
         middle = imgui.ImVec2(view.pos.x + view.size.x / 2, view.pos.y + view.size.y * 0.4)
         imgui.set_next_window_pos(middle, imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
         imgui.set_next_window_size(imgui.ImVec2(34 * imgui.get_font_size(), 0))
+        # Modal, as those of the platform are: what is behind it waits.
+        if not imgui.is_popup_open("##path"):
+            imgui.open_popup("##path")
         flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_saved_settings
-        imgui.begin("##path", None, flags | imgui.WindowFlags_.no_docking)
+        if not imgui.begin_popup_modal("##path", None, flags | imgui.WindowFlags_.no_docking)[0]:
+            return
         imgui.text(self._title)
         if self._fresh:
             imgui.set_keyboard_focus_here()
-            imgui.set_window_focus()
             self._fresh = False
         imgui.set_next_item_width(-1)
         entered, self._typed = imgui.input_text(
@@ -105,7 +108,9 @@ class FileDialog:
         word = "Open" if self._kind != "save file" else "Replace" if self._replaces else "Save"
         if (imgui.button(word, imgui.ImVec2(width, 0)) or entered) and self._typed.strip():
             self._take(_typed_path(self._typed))
-        imgui.end()
+        if self.finished:
+            imgui.close_current_popup()
+        imgui.end_popup()
 
     @property
     def can_ask_again(self) -> bool:

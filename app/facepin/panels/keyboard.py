@@ -31,15 +31,26 @@ HAND: tuple[Line, ...] = (
     (("Page up",), "Nudge them away"),
     (("Page down",), "Nudge them nearer"),
     (("Esc",), "Give up the drag in hand"),
+    (("Hold Ctrl",), "Which shapes move this point"),
 )
 """What the hand does on the face."""
 BOX = "Select pins in a box"
 SLIDERS: tuple[Line, ...] = (
-    (("Drag",), "Set the weight"),
-    (("Ctrl+Click",), "Type a number"),
-    (("Double click",), "Back to 0"),
+    (("Drag",), "Set the weight; Shift: finer"),
+    (("Ctrl+Wheel", "Arrows"), "Step up or down"),
+    (("Enter", "Ctrl+Click"), "Type a number"),
+    (("Double click",), "Back to 0; on the number: type"),
 )
 """What the mouse does on a weight."""
+
+
+POSES: tuple[Line, ...] = (
+    (("Click",), "Put it on the face"),
+    (("Shift+Click",), "Add it to the face"),
+    (("Alt+Drag",), "Blend it in, in part"),
+    (("Ctrl+Click",), "Select; two can be compared"),
+)
+"""What the mouse does on a saved pose."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +75,7 @@ def sections(habit: Habit) -> list[Section]:
         Section("On the face", (*HAND, (boxes, BOX))),
         Section(f"Camera, as in {PRESETS[habit].title}", _camera(habit)),
         Section("On a weight", SLIDERS),
+        Section("On a saved pose", POSES),
     ]
     for topic in get_args(Topic):
         lines = tuple(

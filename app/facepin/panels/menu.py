@@ -12,6 +12,7 @@ from facepin.panels.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.pins import STROKES
 from facepin.panels.requests import AddPane, Choose, ClosePane, KeepPane, OpenPath, RandomReference, Request
 from facepin.panels.view import CHOICES, View
+from facepin.resources import builtin_faces
 from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
@@ -55,7 +56,11 @@ def menu_bar(
                     asked = OpenPath(path)
                 explain_item(str(path))
             imgui.end_menu()
-        asked = _items(view, session, Command.OPEN_BUILTIN) or asked
+        if imgui.begin_menu("Open a built-in face"):
+            for name, path in builtin_faces().items():
+                if imgui.menu_item_simple(name):
+                    asked = OpenPath(path)
+            imgui.end_menu()
         asked = _item(view, session, Command.UNSAVED_WORK, is_there=has_leftovers) or asked
         imgui.separator()
         asked = _items(view, session, Command.SAVE, Command.SAVE_AS) or asked

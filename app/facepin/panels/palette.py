@@ -26,6 +26,7 @@ from facepin.panels.requests import (
 )
 from facepin.panels.theme import Theme, dim_sentence, packed
 from facepin.panels.view import CHOICES, PaletteView, View
+from facepin.resources import builtin_faces
 from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
 from facepin.session.solving import choose
@@ -77,6 +78,9 @@ def entries(
             )
     if session is not None:
         found += [Entry(f"Pose: {pose.title}", "Poses", ApplyPose(pose.key), _words(pose)) for pose in poses]
+    found += [
+        Entry(f"Open the face {name}", "Built in", OpenPath(path)) for name, path in builtin_faces().items()
+    ]
     found += [Entry(f"Open {path.name}", "Recent", OpenPath(path), str(path)) for path in recent]
     return found
 

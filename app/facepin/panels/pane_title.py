@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 from facepin.core.camera import Viewport
 from facepin.panels import layout
 from facepin.panels.overlays import close_on_escape, overlay_items
-from facepin.panels.requests import ClosePane, KeepPane, Request, SelectPane, UseSolver
+from facepin.panels.requests import ClosePane, KeepPane, Request, UseSolver
 from facepin.panels.theme import PICTURE, VEIL, Colour, packed, pop_picture_colours, push_picture_colours
 from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal
@@ -18,9 +18,10 @@ from facepin.solvers import SOLVERS
 
 LOW = 28.0
 """Height of a pane, in letters, below which its title is a single line: the face needs the room."""
-FIGURES = (
-    "Mean distance of the pins from their goals, and largest move of a vertex that should rest,\n"
-    "both in per cent of the face height; time of the last solve."
+HELP = (
+    "Click: solver, overlays, keep or close this pane\n"
+    "pins: mean distance of the pins from their goals, far: largest move of a vertex that should rest,\n"
+    "both in per cent of the face height; then the time of the last solve."
 )
 
 
@@ -84,20 +85,21 @@ def pane_title(
     asked: list[Request] = []
     push_picture_colours()
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 0)
-    imgui.begin(f"##pane {at}", None, layout.SIGN)
+    # Only its button is in the hand's way: the rest of it may lie over pins.
+    flags = 0 if view.title_hovered else imgui.WindowFlags_.no_mouse_inputs
+    imgui.begin(f"##pane {at}", None, layout.SIGN | flags)
     imgui.pop_style_var()
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     if imgui.small_button(f"{pane.choice.kind.title}##title"):
         imgui.open_popup("pane")
     imgui.pop_style_color()
     low, settings = bottom - top < LOW * imgui.get_font_size(), _short(pane.choice)
-    imgui.set_item_tooltip(f"{settings}\nSolver, overlays, keep or close this pane".strip())
+    view.title_hovered = imgui.is_mouse_hovering_rect(imgui.get_item_rect_min(), imgui.get_item_rect_max())
+    imgui.set_item_tooltip(f"{settings}\n{HELP}".strip())
     if settings and not low:
         imgui.same_line()
         imgui.text_disabled(settings)
     _figures(pane, appraisal, right - 12 * scale if low else 0.0)
-    if not active and imgui.is_window_hovered() and imgui.is_mouse_clicked(0):
-        asked.append(SelectPane(at))
     pop_picture_colours()
     if imgui.begin_popup("pane"):
         asked += _menu(at, pane, view, habit, has_reference=has_reference)
@@ -140,8 +142,6 @@ def _figures(pane: Pane, appraisal: Appraisal, right: float) -> None:
         if at not in (0, len(errors)) if right == 0 else beside + imgui.calc_text_size(text).x <= right:
             imgui.same_line()
         imgui.text_colored(imgui.ImVec4(*colour), text)
-        if at < len(errors):
-            imgui.set_item_tooltip(FIGURES)
 
 
 def _menu(at: int, pane: Pane, view: PaneView, habit: Habit, *, has_reference: bool) -> list[Request]:

@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 from facepin.panels.commands import Command
 from facepin.panels.requests import CancelLoading, DiscardWork, Request, RestoreWork
 from facepin.panels.theme import Theme
+from facepin.panels.tiles import shortened
 
 MOST_ROWS = 4
 """Rows that are seen at once; more scroll."""
@@ -50,7 +51,7 @@ def recovery_card(
         Colours.
     """
     em = imgui.get_font_size()
-    _card("##recovery", left, top, width, 36 * em)
+    _card("##recovery", left, top, width, 44 * em)
     asked: Request | None = None
     row_height = imgui.get_frame_height() + imgui.get_style().item_spacing.y
     padding = imgui.get_style().frame_padding.x
@@ -69,12 +70,14 @@ def recovery_card(
     for row in rows:
         imgui.push_id(str(row.draft))
         imgui.align_text_to_frame_padding()
-        x, end = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x - sum(buttons) - 2 * gap
-        imgui.push_clip_rect(x, imgui.ImVec2(x.x + end, x.y + row_height), True)
-        imgui.text(row.name)
+        end = imgui.get_content_region_avail().x - sum(buttons) - 2 * gap
+        room = end - imgui.calc_text_size(row.about).x - 2 * gap
+        imgui.text(shortened(row.name, max(room, 6 * em)))
+        imgui.set_item_tooltip(f"{row.name}\n{row.about}")
         imgui.same_line()
-        imgui.text_colored(imgui.ImVec4(*theme.text_dim), row.about)
-        imgui.pop_clip_rect()
+        imgui.text_colored(
+            imgui.ImVec4(*theme.text_dim), shortened(row.about, end - imgui.get_cursor_pos_x())
+        )
         imgui.same_line(end + gap)
         if imgui.button("Restore", imgui.ImVec2(buttons[0], 0)):
             asked = RestoreWork(row.draft)

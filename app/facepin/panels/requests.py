@@ -42,13 +42,6 @@ class RandomReference:
 
 
 @dataclass(frozen=True)
-class SelectPane:
-    """Show and edit the numbers of a pane."""
-
-    pane: int
-
-
-@dataclass(frozen=True)
 class ClosePane:
     """Close a pane."""
 
@@ -169,7 +162,6 @@ Request = (
     | OpenPath
     | UseSolver
     | AddPane
-    | SelectPane
     | ClosePane
     | KeepPane
     | RandomReference

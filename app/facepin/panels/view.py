@@ -31,6 +31,8 @@ class PaneView:
 
     used: dict[str, SolverChoice] = field(default_factory=dict)
     """Solvers that gave way to others here, by key."""
+    title_hovered: bool = False
+    """The mouse is on the button in the title of the pane."""
     reach: bool = False
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 

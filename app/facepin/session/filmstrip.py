@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facepin.core.pose import Pose
+from facepin.core.pose import Pose, hold_alike
 from facepin.session.session import Session, Work
 
 
@@ -50,4 +50,4 @@ def _stills(session: Session) -> tuple[Still, ...]:
 
 def _look_alike(pose: Pose, other: Pose) -> bool:
     same = pose.weights is other.weights or np.array_equal(pose.weights, other.weights)
-    return same and (pose.pins is other.pins or pose.pins == other.pins)
+    return same and (pose.pins is other.pins or hold_alike(pose.pins, other.pins))

@@ -145,6 +145,22 @@ def test_every_pane_has_its_own_still_parts(gl: moderngl.Context, ada: Rig) -> N
         assert left.motion.still != right.motion.still
 
 
+def test_a_pane_where_nearly_all_moves_leaves_nothing_behind(gl: moderngl.Context, ada: Rig) -> None:
+    half = SIZE[0] / 2
+    camera = frame_points(ada.neutral, half / SIZE[1])
+    sights = [(Viewport(0, 0, half, SIZE[1]), camera), (Viewport(half, 0, half, SIZE[1]), camera)]
+    with dragging(gl, ada, panes=2) as drag:
+        left, right = drag.meshes
+        normals = NormalField(ada)
+        for step in range(5):
+            drag.pose(left, browInnerUp=0.2 * step)
+            moved = ada.neutral + np.float32((0.0, 0.06 * step * ada.height, 0.0))
+            right.upload(moved, normals.normals(moved))
+            same(drag.draw(*sights), drag.whole(*sights))
+        assert left.motion.still
+        assert not right.motion.still
+
+
 def test_shading_that_was_refined_meanwhile_is_shown(gl: moderngl.Context, ada: Rig) -> None:
     sight = VIEW, frame_points(ada.neutral, SIZE[0] / SIZE[1])
     with dragging(gl, ada) as drag:

@@ -206,6 +206,8 @@ class PaneMesh:
         part : Part
             "moving" for the rest of what `StillLayer.draw` has drawn.
         """
+        if part == "still" and not self.motion.still:
+            return
         ctx, scene = self.scene.ctx, self.scene
         if part == "all":
             self.restore()

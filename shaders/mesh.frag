@@ -68,8 +68,8 @@ void main()
     vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
 #ifdef WET
     float open = opening_of_eye(n);
-    vec3 light = studio(n, to_eye, painted(), open, vec3(0.0));
-    light += mirrored_lamps(n, to_eye, lamps_seen(open, vec3(0.0)));
+    vec3 mirrored = mirrored_lamps(n, to_eye, lamps_seen(open, vec3(0.0)));   // before anything is discarded
+    vec3 light = studio(n, to_eye, painted(), open, vec3(0.0)) + mirrored;
 #else
     vec3 light = studio(n, to_eye, painted(), base.a, opening);
 #endif

@@ -49,7 +49,7 @@ vec3 studio(vec3 n, vec3 to_eye, vec3 albedo, float open, vec3 towards)
     diffuse += around * (open / (1.0 - albedo * (1.0 - open)));
 
     // GGX (Walter 2007) with Karis' visibility term, of both lamps in front, without the half vectors.
-    float a = roughness * roughness, nv = max(dot(n, to_eye), 0.0);
+    float a = max(roughness * roughness, 0.002), nv = max(dot(n, to_eye), 0.0);
     vec2 near = max(1.0 + (to_eye * lamps).xy, 0.02), h = nv + nl.xy, d = (a * a - 1.0) * h * h + 2.0 * near;
     vec2 glint = max(nl.xy, 0.0) * seen.xy * (8.0 * a * a / (4.0 * a + 2.0)) * near / (d * d);
     vec3 shine = reflects * (KEY_LIGHT * glint.x + FILL_LIGHT * glint.y);

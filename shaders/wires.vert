@@ -25,7 +25,7 @@ void main()
     vec3 at = (to_view * vec4(position, 1.0)).xyz;
     // What is seen at an angle changes its depth faster from pixel to pixel.
     float facing = abs(dot(normalize(mat3(to_view) * normal), normalize(at)));
-    float slope = min(sqrt(1.0 - facing * facing) / max(facing, 0.01), 3.0);
+    float slope = min(sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.01), 3.0);
     float lift = pixel_angle * (0.8 + slope);
     gl_Position = to_clip * vec4(at * (1.0 - min(lift, 0.5)), 1.0);
     float points = spacing / (-at.z * pixel_angle * scale);

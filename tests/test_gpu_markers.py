@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
+from facepin.core.camera import Viewport, frame_points
+from facepin.core.normals import NormalField
+from facepin.files import open_rig
+from facepin.gpu.canvas import Canvas
+from facepin.gpu.framing import frame
 from facepin.gpu.markers import STYLES, MarkerLayer, Markers, MarkerState, marker_size
+from facepin.gpu.pane import Overlays, draw_pane
+from facepin.gpu.scene import PaneMesh, Scene
+from facepin.resources import resource
 from gpu_help import WHOLE, ball, camera, draw, drawn
 
 FRONT, BACK = (0.3, 0.2, 0.92), (0.3, 0.2, -0.92)
@@ -152,3 +160,28 @@ def test_depth_can_be_written_again_afterwards(gl: moderngl.Context) -> None:
         layer.draw(canvas, WHOLE, camera(rig), markers(FRONT))
         np.testing.assert_array_equal(draw(mesh, canvas, camera(rig)), expected)
     layer.release()
+
+
+def test_pins_behind_a_ghost_look_the_same_in_every_picture(gl: moderngl.Context) -> None:
+    rig = open_rig(resource("assets", "faces/ada.npz"))
+    scene, layer, canvas = Scene(gl, rig), MarkerLayer(gl), Canvas(gl, 0)
+    mesh, shell = PaneMesh(scene), PaneMesh(scene)
+    normals = NormalField(rig).normals(rig.neutral)
+    moved = rig.evaluate(np.full(rig.shape_count, 0.1))
+    mesh.upload(moved, NormalField(rig).normals(moved))
+    shell.upload(rig.neutral, normals)
+    canvas.resize(600, 320)
+    sights = [(Viewport(200 * at, 0, 200, 320), frame_points(rig.neutral, 200 / 320)) for at in range(3)]
+    vertices = np.random.default_rng(1).choice(rig.vertex_count, 60, replace=False)
+    pins = markers(moved[vertices])
+    pictures = []
+    for _ in range(4):
+        scene.background.draw(canvas, sights)
+        for viewport, seen in sights:
+            draw_pane(canvas, frame(seen, viewport), mesh, Overlays(ghost=shell), fine=True)
+            layer.draw(canvas, viewport, seen, pins)
+        pictures.append(canvas.read())
+    for item in (layer, mesh, shell, scene, canvas):
+        item.release()
+    for picture in pictures[1:]:
+        np.testing.assert_array_equal(picture, pictures[0])

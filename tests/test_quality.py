@@ -7,6 +7,7 @@ import moderngl
 import pytest
 
 from driver import running
+from facepin.core.events import PointerMoved
 from facepin.core.quality import LEVELS, Level, level
 from facepin.desk.stage import Stage
 from facepin.files.preferences import read_preferences
@@ -24,11 +25,47 @@ def test_automatic_is_fast_only_in_motion_without_a_graphics_card() -> None:
 
 
 def test_there_is_one_canvas_for_each_number_of_samples(gl: moderngl.Context) -> None:
-    canvases = Canvases(gl)
-    assert canvases.of(0).samples == 0
-    assert canvases.of(4) is canvases.of(4)
-    assert canvases.of(10_000) is canvases.of(int(gl.max_samples)), "as far as the machine goes"
+    canvases, size = Canvases(gl), (60, 40)
+    plain = canvases.of(0, size)
+    assert plain.samples == 0
+    assert canvases.of(4, size) is canvases.of(4, size)
+    assert canvases.of(10_000, size) is canvases.of(int(gl.max_samples), size), "as far as the machine goes"
+    assert canvases.of(4, (50, 30)).size == (50, 30)
+    with pytest.raises(RuntimeError, match="size"):
+        _ = plain.size  # nothing of another size is kept
     canvases.release()
+
+
+def test_without_room_for_samples_the_face_is_there_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    plain = Canvas.resize
+
+    def full(canvas: Canvas, width: int, height: int) -> None:
+        if canvas.samples:
+            raise moderngl.Error("out of memory")
+        plain(canvas, width, height)
+
+    monkeypatch.setattr(Canvas, "resize", full)
+    with running(size=(400, 300)) as app:
+        assert app.desk.message == "Edges are not smoothed: out of memory"
+        assert app.screenshot().std() > 10
+        app.ask(Choose("quality", "best"))
+        app.step(PointerMoved(5, 5), frames=4)
+        assert app.screenshot().std() > 10
+
+
+def test_a_frame_in_which_the_face_is_as_before_costs_no_mean(monkeypatch: pytest.MonkeyPatch) -> None:
+    copies: list[object] = []
+    plain = Canvas.flat
+
+    def noted(canvas: Canvas) -> moderngl.Framebuffer:
+        copies.append(canvas)
+        return plain(canvas)
+
+    with running(size=(400, 300)) as app:
+        monkeypatch.setattr(Canvas, "flat", noted)
+        for at in range(5):
+            app.step(PointerMoved(390, 100 + at))
+        assert not copies
 
 
 def test_pictures_are_drawn_with_the_level_that_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -239,7 +239,10 @@ class Window:
         self._gl.copy_to_screen(picture.glo, picture.size)
 
     def read(self) -> NDArray[np.uint8]:
-        """Return what the window shows, (h, w, 3) uint8, first row on top."""
+        """Return what a windowless window shows, (h, w, 3) uint8, first row on top.
+
+        On a screen, what has been shown need not be there any more.
+        """
         width, height = self.size
         return self._gl.read_screen(width, height)
 

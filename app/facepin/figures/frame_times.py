@@ -58,8 +58,7 @@ def frame_times(rig: Rig, ctx: "moderngl.Context", size: tuple[int, int]) -> lis
     for name, mode in MODES.items():
         over = Overlays(heat if mode.shading == "heat" else None, mode.wireframe, None, mode.shading)
         for word, level in LEVELS.items():
-            canvas = canvases.of(level.samples)
-            canvas.resize(*size)
+            canvas = canvases.of(level.samples, size)
             seconds = []
             for _ in range(FRAMES):
                 began = perf_counter()

@@ -34,7 +34,7 @@ class Canvas:
         """
         self.ctx = ctx
         self._make_texture = make_texture or (lambda size: ctx.texture(size, 4))
-        self.samples = min(samples, int(ctx.max_samples)) if samples > 1 else 0
+        self.samples = _samples(ctx, samples)
         self._buffers: _Buffers | None = None
         self._means: moderngl.Framebuffer | None = None
         self._second: tuple[moderngl.Framebuffer, moderngl.Framebuffer] | None = None
@@ -157,17 +157,29 @@ class Canvas:
 
 
 class Canvases:
-    """One canvas for each number of samples, made when it is first asked for."""
+    """One canvas for each number of samples, all of one size, made when it is first asked for."""
 
     def __init__(self, ctx: moderngl.Context, make_texture: TextureMaker | None = None) -> None:
         self._ctx, self._make_texture = ctx, make_texture
         self._made: dict[int, Canvas] = {}
+        self._size = (0, 0)
 
-    def of(self, samples: int) -> Canvas:
-        """Return the one with that many samples per pixel, as far as the machine goes."""
-        samples = min(samples, int(self._ctx.max_samples))
+    def of(self, samples: int, size: tuple[int, int]) -> Canvas:
+        """Return the one with that many samples per pixel, as far as the machine goes, as large as `size`.
+
+        Raises
+        ------
+        moderngl.Error
+            When the machine has no room for it.
+        """
+        if size != self._size:
+            self.release()  # those of other samples may not be asked for again
+            self._size = size
+        samples = _samples(self._ctx, samples)
         if samples not in self._made:
-            self._made[samples] = Canvas(self._ctx, samples, self._make_texture)
+            canvas = Canvas(self._ctx, samples, self._make_texture)
+            canvas.resize(*size)
+            self._made[samples] = canvas
         return self._made[samples]
 
     def release(self) -> None:
@@ -175,6 +187,12 @@ class Canvases:
         for canvas in self._made.values():
             canvas.release()
         self._made.clear()
+
+
+def _samples(ctx: moderngl.Context, wanted: int) -> int:
+    """Return how many samples per pixel there can be; 0 for one."""
+    most = min(int(ctx.max_samples), int(ctx.info["GL_MAX_DEPTH_TEXTURE_SAMPLES"]))
+    return min(wanted, most) if wanted > 1 and most > 1 else 0
 
 
 @dataclass(frozen=True)

@@ -173,8 +173,8 @@ CHOICES: dict[str, Choice] = {
         {
             "auto": "Automatic (fast in motion without a GPU)",
             "fast": "Fast (light at vertices)",
-            "good": "Good (light at pixels, edges 4x smooth)",
-            "best": "Best (light at pixels, edges 8x smooth)",
+            "good": "Good (light at pixels, smooth edges)",
+            "best": "Best (light at pixels, edges as smooth as can be)",
         },
         "How smooth light and edges of the picture are; better costs time where there is no GPU.",
     ),

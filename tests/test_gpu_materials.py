@@ -6,7 +6,7 @@ import pytest
 from facepin.core.rig import Part
 from facepin.core.rig_builder import PartLook, build_rig
 from facepin.core.topology import draw_order
-from facepin.gpu.materials import CLAY, linear, material, material_runs
+from facepin.gpu.materials import CLAY, SMOOTHEST, linear, material, material_runs
 from gpu_help import ball
 
 
@@ -23,7 +23,14 @@ def test_linear_light_is_what_the_standard_says() -> None:
 @pytest.mark.parametrize("name", ["eyeL", "M_ScleraLeft", "left_eye", "Eyeball_R", "M_IrisRight"])
 def test_eyes_are_wet(name: str) -> None:
     look = material(part(name), coloured=True)
-    assert look is not None and look.roughness < 0.15
+    assert look is not None and look.wet
+
+
+@pytest.mark.parametrize("name", ["tongue", "gums", "skin", "hair"])
+def test_what_is_smooth_is_no_eye(name: str) -> None:
+    look = material(part(name, roughness=0.0), coloured=True)
+    assert look is not None and not look.wet
+    assert look.roughness == SMOOTHEST
 
 
 @pytest.mark.parametrize("name", ["skin", "M_Face", "eyelid_upper", "neck", "greyeyes_shirt"])

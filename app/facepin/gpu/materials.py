@@ -30,23 +30,27 @@ class Material:
     """How far light spreads beneath the surface before it comes out, colour by colour, 0 not at all."""
     reflects: float = 0.04
     """Share of the light that is reflected straight ahead; most things that are not metal are alike."""
+    wet: bool = False
+    """The lamps themselves are seen in it: an eye."""
 
 
 CLAY = Material((0.47, 0.45, 0.435), Part.roughness, (0.20, 0.17, 0.15))
 """What says nothing about itself."""
 
+SMOOTHEST = 0.2
+"""Least roughness of what is not an eye: a highlight stays larger than a pixel."""
 FLESH: Colour = (0.36, 0.19, 0.125)
 """Scatter of skin, and of what is softer still."""
 SKIN = replace(CLAY, scatter=FLESH, reflects=0.028)
 
-EYEBALL = Material((0.72, 0.70, 0.68), 0.08)
+EYEBALL = Material((0.72, 0.70, 0.68), 0.08, wet=True)
 """The white of an eye; its iris is painted on."""
 
 BY_NAME: tuple[tuple[str, Material | None], ...] = (
     ("occlusion|lacrimal|tear|eyeblend|eyewet|lash", None),
     ("brow", Material((0.25, 0.20, 0.17), 0.6)),
-    ("iris", Material((0.24, 0.36, 0.42), 0.08)),
-    ("pupil", Material((0.02, 0.02, 0.02), 0.08)),
+    ("iris", Material((0.24, 0.36, 0.42), 0.08, wet=True)),
+    ("pupil", Material((0.02, 0.02, 0.02), 0.08, wet=True)),
     ("sclera|eyeball|eyewhite", EYEBALL),
     ("teeth|tooth", Material((0.83, 0.81, 0.77), 0.25)),
     ("gum|tongue|mouthsocket", Material((0.54, 0.36, 0.34), 0.35, FLESH)),
@@ -70,6 +74,7 @@ class Run:
     roughness: float
     scatter: Colour
     reflects: float
+    wet: bool
     hidden: Literal["back", "front"] | None
     """The side that is never seen, so that triangles showing it are left out."""
     texture: Texture | None = None
@@ -112,7 +117,9 @@ def material(part: Part, coloured: bool) -> Material | None:
     roughness = named.roughness if part.roughness == Part.roughness else part.roughness
     # A face without colours is clay through and through.
     inside = CLAY if named is SKIN and own is None and not painted else named
-    return Material(colour, roughness, inside.scatter, inside.reflects)
+    if not named.wet:
+        roughness = max(roughness, SMOOTHEST)
+    return Material(colour, roughness, inside.scatter, inside.reflects, named.wet)
 
 
 def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
@@ -126,7 +133,7 @@ def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
         first, count = 3 * piece.triangles.start, 3 * len(piece.triangles)
         part = rig.parts[piece.part]
         card = (None, None) if rig.texture_places is None else (part.texture, part.cutout)
-        inside = (look.roughness, look.scatter, look.reflects)
+        inside = (look.roughness, look.scatter, look.reflects, look.wet)
         run = Run(first, count, (r, g, b), *inside, piece.hidden, *card)
         before = runs[-1] if runs else None
         if before is not None and before.first + before.count == first:

@@ -26,8 +26,6 @@ SHADERS: dict[ProgramName, tuple[str, ...]] = {
 
 GLOSSY = 0.3
 """Roughness below which a highlight is too small to be computed at vertices."""
-WET = 0.15
-"""Roughness below which the lamps themselves are seen in a surface."""
 EYES_OF_CLAY = 1.8
 """How much lighter eyes are than other clay; their irises stay darker, to tell where they look."""
 
@@ -70,10 +68,10 @@ class Shaders:
             self._picture(run.texture).use(0)
             program["colours"] = 0
             program["cutout"] = run.cutout or 0.0
-        material = run if shading == "studio" or run.roughness < WET else CLAY
+        material = run if shading == "studio" or run.wet else CLAY
         scatter = run.scatter if shading == "studio" else CLAY.scatter
         paint = (*run.tint, 1.0) if shading == "studio" else (*self._clay, 0.0)
-        if shading == "clay" and run.roughness < WET:
+        if shading == "clay" and run.wet:
             paint = (*(EYES_OF_CLAY * part for part in self._clay), -1.0)
         program["paint"] = paint
         program["roughness"] = material.roughness
@@ -109,8 +107,8 @@ def _program_of(run: Run, shading: Shading, *, fine: bool) -> ProgramName:
     if shading == "normals":
         return "normals"
     if run.texture is not None and (shading == "studio" or run.cutout is not None):
-        return "wet textured" if run.roughness < WET else "textured"
-    if run.roughness < WET:
+        return "wet textured" if run.wet else "textured"
+    if run.wet:
         return "wet"
     if fine or (run.roughness < GLOSSY and shading == "studio"):
         return "fine"

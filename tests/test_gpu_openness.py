@@ -5,7 +5,7 @@ import numpy as np
 
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import build_rig
-from facepin.gpu.openness import directions, opened, vertex_normals
+from facepin.gpu.openness import directions, opened, smoothed, vertex_normals
 from facepin.gpu.scene import Scene
 from gpu_help import ball
 
@@ -46,6 +46,38 @@ def test_the_bottom_of_a_pit_is_dark(gl: moderngl.Context) -> None:
     assert bottom.sum() > 5
     assert values[bottom].max() < 0.5
     assert values[z < -0.5].min() > 0.9
+
+
+def test_lids_are_lit_when_they_close(gl: moderngl.Context) -> None:
+    rig = pot()
+    x, y, z = rig.neutral.T
+    bottom = (np.hypot(x, y) < 0.2) & (np.abs(z) < 0.4)
+    out = np.where((np.hypot(x, y) < 0.35) & (z < 0.6) & (z > -0.6), 1.2, 0.0)
+    moves = {"jawOpen": np.ones_like(rig.neutral), "eyeBlink_L": np.outer(out, (0, 0, 1))}
+    corners, sizes = rig.triangles.ravel(), np.full(len(rig.triangles), 3)
+    lids = openness(gl, build_rig("lids", rig.neutral, corners, sizes, list(moves.items())))
+    moves["brow"] = moves.pop("eyeBlink_L")
+    other = openness(gl, build_rig("other", rig.neutral, corners, sizes, list(moves.items())))
+    assert lids[bottom].min() > other[bottom].max() + 0.1
+    np.testing.assert_allclose(
+        lids[out == 0][z[out == 0] < -0.5], other[out == 0][z[out == 0] < -0.5], atol=0.01
+    )
+
+
+def test_light_is_spread_by_distance_not_by_neighbours() -> None:
+    x, y = np.meshgrid(0.01 * np.arange(21), 0.1 * np.arange(21))
+    points = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+    at = np.arange(x.size).reshape(x.shape)
+    quads = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], axis=-1).reshape(-1, 4)
+    rig = build_rig("strips", points, quads.ravel(), np.full(len(quads), 4), [("move", points)])
+    spike = np.zeros(x.size, np.float32)
+    spike[at[10, 10]] = 1.0
+    spread = smoothed(spike, rig, 4).reshape(x.shape)
+    steps = np.arange(21) - 10.0
+    along, across = ((spread.sum(axis=axis) / spread.sum()) @ steps**2 for axis in (1, 0))
+    assert across > 1.5 * along > 0, "equal neighbours would spread it alike, in steps"
+    assert 0 < spread.max() < 0.5
+    np.testing.assert_allclose(smoothed(np.ones_like(spike), rig, 4), 1.0, rtol=1e-5)
 
 
 def test_what_stands_by_a_wall_opens_away_from_it(gl: moderngl.Context) -> None:

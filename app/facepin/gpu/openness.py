@@ -19,8 +19,8 @@ from facepin.gpu.framing import column_major
 from facepin.gpu.materials import EYEBALL, Run, by_name, cull_hidden
 from facepin.gpu.programs import load_program
 
-DIRECTIONS, OPENED_DIRECTIONS = 60, 16
-"""Views of the neutral, and of the open mouth."""
+DIRECTIONS, MORE_DIRECTIONS = 60, 16
+"""Views of the neutral, and of each pose that shows what it hides."""
 RESOLUTION = 256
 """Width and height of a depth map."""
 LIFT = 0.006
@@ -30,7 +30,13 @@ CONTRAST = 1.5
 OPENED_SHARE = 0.8
 """How much of the light in an open mouth counts: teeth are seen, and closed lips keep their line."""
 OPENING = ("jawopen", "mouthupperup", "mouthlowerdown", "eyewide")
-"""Parts of the names, without underscores, of the shapes that show what the neutral hides."""
+"""Parts of the names, without underscores, of the shapes that show what the neutral hides inside."""
+NEAR = 0.006
+"""How far light is spread in a round of smoothing, in heights of the face."""
+LID = 0.01
+"""How far lids move at least, in heights of the face."""
+CLOSING = ("eyeblink", "eyesclosed", "blink")
+"""Of those that show the lids, of which the neutral hides most in a fold."""
 EYES_OPEN = 0.6
 """Least openness of eyeballs: what the lids cover in the neutral comes out when the gaze turns."""
 
@@ -74,7 +80,12 @@ class Openness:
         maps = _DepthMaps(ctx, rig.vertex_count, runs, indices)
         try:
             baked = []
-            for positions, count in ((rig.neutral, DIRECTIONS), (opened(rig), OPENED_DIRECTIONS)):
+            everywhere = np.ones(rig.vertex_count, np.float32)
+            poses = [(rig.neutral, DIRECTIONS, everywhere), (opened(rig), MORE_DIRECTIONS, everywhere)]
+            if (closed := posed(rig, CLOSING)) is not None:
+                moved = np.linalg.norm(closed - rig.neutral, axis=1) > LID * rig.height
+                poses.append((closed, MORE_DIRECTIONS, moved.astype(np.float32)))
+            for positions, count, where in poses:
                 # In front of the surface and behind it: shares, and their moments along the surface.
                 arrived = np.zeros((2, rig.vertex_count, 4), np.float32)
                 offered = np.zeros((2, rig.vertex_count, 4), np.float32)
@@ -91,20 +102,22 @@ class Openness:
                         offered[side] += weight[:, None] * moments
                         arrived[side] += (weight * seen)[:, None] * moments
                     yield step
-                baked.append(_chosen(sides, *_opening(arrived, offered)))
+                baked.append((*_chosen(sides, *_opening(arrived, offered)), where))
         finally:
             maps.release()
-        (shut, shut_towards), (wide, wide_towards) = baked
+        (values, towards, _), *others = baked
         # The open mouth counts for what the closed one hides: teeth are seen, and necks keep their shadow.
-        hidden = np.clip(1 - 2 * shut, 0, 1) * (OPENED_SHARE * np.sqrt(wide) > shut)
-        values = shut + hidden * (OPENED_SHARE * np.sqrt(wide) - shut)
-        towards = shut_towards + hidden[:, None] * (wide_towards - shut_towards)
-        self.values = smoothed(values.astype(np.float32), rig)
+        for share, from_where, where in others:
+            revealed = OPENED_SHARE * np.sqrt(share)
+            hidden = where * np.clip(1 - 2 * values, 0, 1) * (revealed > values)
+            values = (values + hidden * (revealed - values)).astype(np.float32)
+            towards = (towards + hidden[:, None] * (from_where - towards)).astype(np.float32)
+        self.values = smoothed(values, rig, 4)
         for part in rig.parts:
             if by_name(part) is EYEBALL:
                 eyes = np.unique(rig.triangles[part.triangles.start : part.triangles.stop])
                 self.values[eyes] = np.maximum(self.values[eyes], EYES_OPEN)
-        self.towards = smoothed(towards.astype(np.float32), rig, 5)
+        self.towards = smoothed(towards, rig, 10)
 
 
 def _opening(arrived: Points, offered: Points) -> tuple[Points, Points]:
@@ -183,14 +196,24 @@ def outer_sides(rig: Rig, order: DrawOrder, runs: tuple[Run, ...]) -> NDArray[np
 
 def opened(rig: Rig) -> Points:
     """Return positions with mouth and eyes open by the names of shapes, else with the one that moves most."""
-    if not rig.shape_count:
-        return rig.neutral
+    found = posed(rig, OPENING)
+    if found is not None or not rig.shape_count:
+        return rig.neutral if found is None else found
+    weights = np.zeros(rig.shape_count)
+    weights[int(np.argmax(rig.largest_moves))] = 1.0
+    return rig.evaluate(weights)
+
+
+def posed(rig: Rig, parts: tuple[str, ...]) -> Points | None:
+    """Return positions (n, 3) with all shapes whose names have one of these parts; None when there is none.
+
+    Numbers at the end are those of shapes on the way to another one.
+    """
     names = [name.lower().replace("_", "") for name in rig.shape_names]
-    weights = np.array([float(any(part in name for part in OPENING)) for name in names])
-    if not weights.any():
-        weights[int(np.argmax(rig.largest_moves))] = 1.0
-    positions: Points = rig.evaluate(weights)
-    return positions
+    weights = np.array(
+        [float(any(part in name for part in parts) and not name[-1:].isdigit()) for name in names]
+    )
+    return rig.evaluate(weights) if weights.any() else None
 
 
 def directions(count: int) -> Floats:
@@ -212,20 +235,23 @@ def vertex_normals(positions: Points, triangles: Indices) -> Points:
     return units
 
 
-def smoothed(values: Points, rig: Rig, rounds: int = 2) -> Points:
-    """Mix values (n,) or (n, m) with the mean of their neighbours: hides the steps of few directions."""
-    corners = rig.triangles
-    rows = np.concatenate([corners[:, [0, 1, 2]].ravel(), corners[:, [1, 2, 0]].ravel()])
-    columns = np.concatenate([corners[:, [1, 2, 0]].ravel(), corners[:, [0, 1, 2]].ravel()])
-    count = rig.vertex_count
-    around = csr_array((np.ones(len(rows), np.float32), (rows, columns)), shape=(count, count))
-    degree: Points = around.sum(axis=1)
-    if values.ndim > 1:
-        degree = degree[:, None]
+def smoothed(values: Points, rig: Rig, rounds: int) -> Points:
+    """Mix values (n,) or (n, m) with those of near neighbours: hides the steps of few directions.
+
+    Near is what is within some thousandths of the face, or as far as neighbours are in the mean: where
+    triangles are long and narrow, shadows would run along them if all neighbours counted the same.
+    """
+    a, b, c = rig.triangles.T
+    start, end = np.concatenate([a, b, c, b, c, a]), np.concatenate([b, c, a, a, b, c])
+    lengths, count = np.linalg.norm(rig.neutral[start] - rig.neutral[end], axis=1), rig.vertex_count
+    mean = np.bincount(start, lengths, count) / np.maximum(np.bincount(start, minlength=count), 1)
+    far = lengths / np.maximum(mean, NEAR * rig.height)[start]
+    around = csr_array((np.exp(-0.5 * far * far).astype(np.float32), (start, end)), shape=(count, count))
+    own = 1 + np.asarray(around.sum(axis=1), np.float32)
+    own = own[:, None] if values.ndim > 1 else own
     for _ in range(rounds):
-        mean = np.where(degree > 0, (around @ values) / np.maximum(degree, 1), values)
-        values = (0.5 * values + 0.5 * mean).astype(np.float32)
-    return values
+        values = (values + around @ values) / own
+    return values.astype(np.float32)
 
 
 def _axes(direction: Floats) -> Floats:

@@ -180,8 +180,9 @@ def _loop(
             continue
         wait = (0.0 if desk.job is not None else BUSY_WAIT) if busy else 0.0
         if window.scale * view.ui_scale / window.pixel_ratio != scale:
-            reset_layout = scale is not None  # docked panels keep their pixels, which no longer fit the text
-            scale = window.scale * view.ui_scale / window.pixel_ratio
+            former, scale = scale, window.scale * view.ui_scale / window.pixel_ratio
+            if former is not None:  # docked panels keep their pixels, which no longer fit the text
+                layout_file.scale(scale / former)
             theme = None
         if view.theme is not theme:
             theme = view.theme

@@ -1,5 +1,6 @@
 """What is chosen in the menu Settings is followed at once, and remembered."""
 
+import json
 from pathlib import Path
 from typing import get_args
 
@@ -8,7 +9,7 @@ import pytest
 from PIL import Image
 
 from driver import running
-from facepin.core.events import KeyPressed, PointerMoved
+from facepin.core.events import CloseRequested, KeyPressed, PointerMoved
 from facepin.files import preferences
 from facepin.main_loop import ICON_SIZES
 from facepin.panels import theme
@@ -85,6 +86,28 @@ def test_what_makes_no_sense_in_the_preferences_is_replaced(tmp_path: Path) -> N
     assert line is not None
     for name in ("theme", "habit", "guide", "lately"):
         assert name in line
+
+
+def test_the_window_and_the_order_of_the_weights_are_found_again(tmp_path: Path) -> None:
+    with running(settings_folder=tmp_path, size=(900, 640)) as app:
+        app.window.resize((1000, 700))
+        app.desk.view.weights.arrangement = "by side"
+        app.step(PointerMoved(5, 5), frames=3)
+        with pytest.raises(StopIteration):
+            app.step(CloseRequested(), frames=3)
+    found, line = preferences.read_preferences(tmp_path / "preferences.json")
+    assert line is None
+    assert found.window == (1000, 700)
+    with running(settings_folder=tmp_path) as app:
+        assert app.desk.view.weights.arrangement == "by side"
+
+
+@pytest.mark.parametrize("window", [[10, 700], [1e3, 700.5], ["a", "b"], [900], 900, [True, 700]])
+def test_a_window_that_nobody_can_use_is_not_opened(window: object, tmp_path: Path) -> None:
+    (tmp_path / "preferences.json").write_text(json.dumps({"window": window}))
+    found, line = preferences.read_preferences(tmp_path / "preferences.json")
+    assert found.window == (1280, 720)
+    assert line is not None and "window" in line
 
 
 def test_help_works_before_a_face_is_open(tmp_path: Path) -> None:

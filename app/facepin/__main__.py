@@ -98,8 +98,9 @@ def _window(options: Namespace) -> None:
         _demonstrate(f"no window is possible here ({error})", options)
         return
     settings = user_config_path("facepin", appauthor=False)
-    remembered = read_preferences(settings / "preferences.json")[0].solver
-    keys = options.compare or options.solver or (remembered if remembered in SOLVERS else "transpose")
+    remembered = read_preferences(settings / "preferences.json")[0]
+    usual = remembered.solver if remembered.solver in SOLVERS else "transpose"
+    keys = options.compare or options.solver or usual
     # Who poses a face wants one that can be made; who compares solvers wants them as they are.
     choices = solver_choices(keys, [], keep_limits=not options.compare)
     if len(choices) > MOST_PANES:
@@ -115,7 +116,7 @@ def _window(options: Namespace) -> None:
         chart_writer=_write_charts,
     )
     try:
-        window = Window("Facepin", (1280, 720))
+        window = Window("Facepin", remembered.window)
     except NoDisplay as error:
         _demonstrate(str(error), options)
         return

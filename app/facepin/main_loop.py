@@ -24,6 +24,7 @@ from facepin.panels.commands import Command
 from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
+from facepin.panels.weights.listing import ARRANGEMENTS
 from facepin.resources import BUILTIN, resource
 from facepin.session.solving import SolverChoice
 from facepin.window import Window
@@ -131,6 +132,8 @@ def _loop(
     view.freedom, view.quality, view.ui_scale = preferences.freedom, preferences.quality, preferences.ui_scale
     view.theme_name, view.habit, view.lately = preferences.theme, preferences.habit, preferences.lately
     view.guide.step = preferences.guide
+    if preferences.arrangement in ARRANGEMENTS:
+        view.weights.arrangement = preferences.arrangement
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
     router = Router()
@@ -232,6 +235,9 @@ def _loop(
             if complaint := write_preferences(preferences_file, preferences):
                 desk.say(complaint, error=True)
         yield Frame(desk, viewport, viewports, True, seconds)
+    if preferences_file and 0 not in window.size:
+        width, height = (round(side / window.scale) for side in window.size)
+        write_preferences(preferences_file, replace(preferences, window=(width, height)))
 
 
 def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
@@ -246,6 +252,7 @@ def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
         habit=view.habit,
         guide=view.guide.step,
         lately=view.lately,
+        arrangement=view.weights.arrangement,
     )
     if desk.opened is not None:
         found = found.opened(desk.opened)

@@ -4,6 +4,7 @@ Without a display the same class opens on glfw's null platform: a real context, 
 """
 
 import ctypes
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -424,4 +425,10 @@ def _create(title: str, size: tuple[int, int], windowless: bool) -> Any:
     glfw.window_hint(glfw.SCALE_TO_MONITOR, True)
     if windowless:
         glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
+    elif (monitor := glfw.get_primary_monitor()) is not None:
+        # The screen may be another one than that for which the size was good.
+        _, _, width, height = glfw.get_monitor_workarea(monitor)
+        scale = 1.0 if sys.platform == "darwin" else glfw.get_monitor_content_scale(monitor)[0]
+        if width and height:
+            size = (min(size[0], int(width / scale)), min(size[1], int(height / scale)))
     return glfw.create_window(*size, title, None, None)

@@ -36,6 +36,10 @@ class Preferences:
     """How many of the first steps are done."""
     lately: tuple[str, ...] = ()
     """What was chosen in the command palette, newest first."""
+    arrangement: str = "rig order"
+    """How weights are listed."""
+    window: tuple[int, int] = (1280, 720)
+    """Width and height, in pixels of a 1x screen."""
 
     def opened(self, path: Path) -> "Preferences":
         """Return the preferences with a rig or scene put first among the recent ones."""
@@ -55,6 +59,14 @@ _CHECKS: dict[str, Callable[[Any], bool]] = {
     "habit": lambda value: value in ("facepin", "maya", "blender"),
     "guide": lambda value: isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= 1000,
     "lately": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
+    "arrangement": lambda value: isinstance(value, str),
+    "window": lambda value: (
+        isinstance(value, list)
+        and len(value) == 2
+        and all(
+            isinstance(side, int) and not isinstance(side, bool) and 200 <= side <= 16384 for side in value
+        )
+    ),
 }
 
 
@@ -82,6 +94,8 @@ def read_preferences(path: Path) -> tuple[Preferences, str | None]:
     wrong = sorted(set(found) & {field.name for field in fields(Preferences)} - set(usable))
     if "recent" in usable:
         usable["recent"] = tuple(usable["recent"][:RECENT])
+    if "window" in usable:
+        usable["window"] = tuple(usable["window"])
     if "lately" in usable:
         usable["lately"] = tuple(usable["lately"][:RECENT])
     line = f"{path.name}: {', '.join(wrong)} could not be used; the default stands" if wrong else None

@@ -166,3 +166,17 @@ def test_an_answer_that_comes_after_another_face_saves_nothing(tmp_path: Path) -
         assert "Another face" in app.desk.message
         assert not list(tmp_path.iterdir())
         assert app.desk.dialog is None  # whatever path is typed, it would be no better
+
+
+def test_a_slider_says_that_it_lets_the_goals_of_pins_go() -> None:
+    with running(solver="transpose,sparse") as app:
+        x, y, z = app.session.rig.neutral[4000].astype(float).tolist()
+        app.desk.apply(Edit("Drag pin", True, (Pin(4000, (x, y - 2.0, z)),), solve=True))
+        assert app.desk.message == ""
+        weights = app.session.pose.weights.copy()
+        weights[0] = 0.5
+        app.desk.apply(Edit("Set", True, weights=weights))
+        assert "goals of the pins" in app.desk.message and not app.desk.is_error
+        weights[0] = 0.6
+        app.desk.apply(Edit("Set", True, weights=weights))
+        assert app.desk.message == ""

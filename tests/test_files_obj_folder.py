@@ -124,6 +124,7 @@ def test_what_to_do_when_no_file_or_several_can_be_the_neutral(tmp_path):
         (tmp_path / f"{name}.obj").write_text(obj_lines(POSITIONS, "f 1 2 3\n"))
     with pytest.raises(FacepinError, match=r"several .*--neutral: neutral_a\.obj, neutral_b\.obj"):
         opened(tmp_path)
+    assert "neutral_a" in opened(tmp_path / "neutral_b.obj").shape_names
 
 
 def test_opening_one_of_the_files_opens_its_folder(tmp_path):

@@ -184,6 +184,7 @@ def _render(options: Namespace) -> None:
             markers=pin_markers(pose, positions) if options.pins_shown else None,
         )
     atomic_write(options.out, png_bytes(image))
+    print(options.out)
 
 
 def _export_options(parser: ArgumentParser) -> None:
@@ -204,6 +205,7 @@ def _export(options: Namespace) -> None:
     rig = open_with_bar(options.rig, options.neutral)
     pose = first_pose(rig, options.pose, None)
     write_model(rig, pose.weights, options.out)
+    print(options.out)
 
 
 def _compare_options(parser: ArgumentParser) -> None:

@@ -54,7 +54,8 @@ def load_pose(desk: Desk, session: Session, path: Path) -> None:
     loaded, report = read_pose(path, session.rig)
     desk.apply(Edit(f"Load {path.name}", True, loaded.pins, weights=loaded.weights))
     report = "; ".join(line for line in (report, session.message) if line)
-    desk.say(f"{path.name}: {report}" if report else f"Loaded {path.name}")
+    where = " into the selected pane" if len(session.panes) > 1 else ""
+    desk.say(f"{path.name}: {report}" if report else f"Loaded {path.name}{where}")
 
 
 def _ask_for(command: Command, desk: Desk, session: Session) -> None:

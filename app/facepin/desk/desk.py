@@ -30,6 +30,10 @@ from facepin.session.solving import SolverChoice
 ChartWriter = Callable[[Session, Path], None]
 
 
+FAR_OFF = 0.005
+"""Mean distance of pins from their goals, in heights of the face, above which it is told that goals move."""
+
+
 class Desk:
     """Holds what requests act on; `facepin.actions` carries them out."""
 
@@ -214,11 +218,14 @@ class Desk:
         """Apply an edit to the session, and pass on what it has to say."""
         if self.session is None:
             return
+        solved = self.session.committed.panes[self.session.active].solved
         self.session.apply(edit)
         if self.session.message:
             self.say(self.session.message, error=True)
         elif edit.final:
-            self.say("")
+            by_hand = edit.weights is not None and edit.pins is None
+            let_go = by_hand and solved is not None and solved.pin_error > FAR_OFF * self.session.rig.height
+            self.say("The goals of the pins are on the face again; undo brings them back" if let_go else "")
 
     def snapshot(self) -> Snapshot:
         """Return all that a scene is made of, as it is at the last undo step."""

@@ -14,6 +14,7 @@ from facepin.files.obj_text import cut_lines, read_faces, read_vertices
 from facepin.files.options import ReadOptions
 from facepin.files.rig_cache import recall, remember
 
+NAME_IT = "open that file itself or name it with --neutral"
 NEUTRAL_WORDS = ("base", "basis", "rest")
 
 
@@ -71,9 +72,9 @@ def read_obj_folder(folder: Path, options: ReadOptions) -> Rig:
 
 
 def read_obj_file(path: Path, options: ReadOptions) -> Rig:
-    """Read the folder in which an .obj file lies; it is the neutral where no other can be told to be."""
+    """Read the folder of an .obj file, which is the neutral unless there is just one that seems to be."""
     files = _obj_files(path.parent)
-    if options.neutral is None and not _candidates(files):
+    if options.neutral is None and len(_candidates(files)) != 1:
         options = ReadOptions(path.name, options.progress, options.cache_folder)
     return read_obj_folder(path.parent, options)
 
@@ -137,9 +138,5 @@ def _find_neutral(files: list[Path], wanted: str | None, folder: Path) -> Path:
         return candidates[0]
     if candidates:
         several = listed([file.name for file in candidates])
-        raise FacepinError(
-            f"{folder.resolve().name}: several files may be the neutral, name one with --neutral: {several}"
-        )
-    raise FacepinError(
-        f"{folder.resolve().name}: no file can be told to be the neutral, name one with --neutral: {names}"
-    )
+        raise FacepinError(f"{folder.resolve().name}: several files may be the neutral, {NAME_IT}: {several}")
+    raise FacepinError(f"{folder.resolve().name}: no file can be told to be the neutral, {NAME_IT}: {names}")

@@ -84,7 +84,7 @@ class Router:
             case CloseRequested():
                 asked.append(Command.QUIT)
             case FilesDropped((first, *_)):
-                asked.append(OpenPath(first.parent if first.suffix.lower() == ".obj" else first))
+                asked.append(OpenPath(first))
             case KeyPressed():
                 command = command_for(event, desk.view.habit)
                 if desk.view.palette is not None and command is not Command.PALETTE:

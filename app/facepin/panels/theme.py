@@ -174,6 +174,7 @@ def apply_theme(theme: Theme, ui_scale: float) -> None:
         imgui.Col_.docking_empty_bg: (0, 0, 0, 0),
         imgui.Col_.text_selected_bg: theme.accent_dim,
         imgui.Col_.nav_cursor: theme.accent_dim,
+        imgui.Col_.modal_window_dim_bg: (0, 0, 0, 0.35),
         imgui.Col_.plot_histogram: theme.accent,
         imgui.Col_.resize_grip: (0, 0, 0, 0),
         imgui.Col_.resize_grip_hovered: theme.accent_dim,

@@ -1,6 +1,7 @@
 """The command line: what it prints, what it writes, and how it refuses."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,9 +13,12 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import lsq_linear
 
 from facepin.__main__ import main
+from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
+from facepin.core.rig_builder import build_rig
 from facepin.core.shading import MODES
 from facepin.files import open_rig, write_model
+from facepin.session.solving import PinSolver, Solved
 from facepin.solvers import SOLVERS
 from small_rigs import sheet
 
@@ -213,13 +217,34 @@ def test_export_writes_the_posed_face(small: Path, tmp_path: Path, suffix: str) 
         (["render", "RIG", "--out", "x.png", "--shading", "wax"], "wax"),
         (["export", "RIG", "--out", "x.fbx"], ".fbx"),
         (["--compare", "transpose,hybrid,sparse,bounded,tikhonov"], "do not fit"),
+        (["--compare", "hybrid", "--solver", "sparse"], "--solver and --compare"),
+        (["inof", "RIG"], "'inof' is neither"),
+        (["a" * 300], "too long"),
+        (["render", "RIG", "--out", "no-folder/x.png"], "no folder no-folder"),
+        (["solve", "RIG", "--pins", "PINS", "--out", "."], "'.'"),
+        (["solve", "RIG", "--pins", "PINS", "--out", "x.txt"], "x.txt"),
+        (
+            ["solve", "RIG", "--pins", "FAR", "--solver", "pseudo_inverse", "--out", "x.json"],
+            "hold up to 1e+06",
+        ),
+        (["solve", "RIG", "--pins", "SKEW"], "length 1 at right angles"),
     ],
 )
 def test_errors_are_one_line_and_exit_status_2(
-    small: Path, tmp_path: Path, words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+    small: Path,
+    tmp_path: Path,
+    words: list[str],
+    told: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     (tmp_path / "pins.json").write_text('{"pins": [{"vertex": 3, "move": [0, 1, 0]}]}')
+    (tmp_path / "far.json").write_text('{"pins": [{"vertex": 3, "goal": [0, 0, 9e8]}]}')
+    skew = {"vertex": 3, "move": [0, 1, 0], "freedom": "screen", "axes": [[1, 0, 0], [1, 0.001, 0]]}
+    (tmp_path / "skew.json").write_text(json.dumps({"pins": [skew]}))
     places = {"RIG": str(small), "PINS": str(tmp_path / "pins.json")}
+    places |= {"FAR": str(tmp_path / "far.json"), "SKEW": str(tmp_path / "skew.json")}
+    monkeypatch.chdir(tmp_path)
     assert main([places.get(word, word) for word in words]) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
@@ -247,3 +272,53 @@ def test_the_program_is_a_module_and_a_script() -> None:
         [sys.executable, "-m", "facepin", "--version"], capture_output=True, text=True, check=True
     )
     assert done.stdout.startswith("facepin ")
+
+
+def test_a_built_in_face_is_known_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["info", "bruno", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["name"] == "bruno"
+
+
+def test_names_in_any_script_are_printed_whatever_the_terminal_knows(tmp_path: Path) -> None:
+    rig = sheet()
+    named = build_rig(
+        "笑い", rig.neutral, rig.triangles.ravel(), np.full(len(rig.triangles), 3), [("笑い", rig.neutral)]
+    )
+    write_model(named, np.zeros(1), tmp_path / "a.glb")
+    done = subprocess.run(
+        [sys.executable, "-m", "facepin", "info", tmp_path / "a.glb", "--json"],
+        capture_output=True,
+        check=True,
+        env={**os.environ, "PYTHONIOENCODING": "cp1252"},
+    )
+    assert json.loads(done.stdout.decode())["shapes"] == ["笑い"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no such device here")
+def test_a_full_disk_is_told_of_in_one_line() -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "facepin", "info", "ada"], stdout=full, stderr=subprocess.PIPE, text=True
+        )
+    assert done.returncode == 2
+    assert done.stderr.startswith("facepin: ") and done.stderr.count("\n") == 1
+
+
+def test_a_solver_that_fails_leaves_the_others(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "pins.json").write_text('{"pins": [{"vertex": 3, "move": [0, 1, 0]}]}')
+    plain = PinSolver.solve
+
+    def one_fails(solver: PinSolver, *rest: object) -> Solved:
+        if solver.choice.kind.key == "hybrid":
+            raise FacepinError("hybrid gave up")
+        return plain(solver, *rest)
+
+    monkeypatch.setattr(PinSolver, "solve", one_fails)
+    words = ["solve", str(small), "--pins", str(tmp_path / "pins.json"), "--solver"]
+    assert main([*words, "all"]) == 0
+    printed = capsys.readouterr()
+    assert set(json.loads(printed.out)["solvers"]) == set(SOLVERS) - {"hybrid"}
+    assert printed.err == "facepin: hybrid gave up\n"
+    assert main([*words, "hybrid"]) == 2

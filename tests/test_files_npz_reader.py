@@ -58,6 +58,8 @@ def test_vertex_colours_as_bytes_or_floats(tmp_path, word):
     as_floats = open_rig(saved(tmp_path / "f.npz", **{word: colours / 255}))
     assert np.allclose(as_bytes.colours, [[0, 0.2, 1]] * 4)
     assert np.array_equal(as_bytes.colours, as_floats.colours)
+    as_words = open_rig(saved(tmp_path / "w.npz", **{word: colours.astype(np.uint16) * 257}))
+    assert np.allclose(as_words.colours, as_floats.colours)
 
 
 @pytest.mark.parametrize(

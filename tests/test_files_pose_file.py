@@ -145,6 +145,9 @@ def test_a_pose_with_the_least_that_is_needed(tmp_path):
         ("p.csv", "shape,weight\njawOpen,nan\n", ":2:"),
         ("p.csv", "jawOpen\n", ":1:"),
         ("p.csv", "a,1,2\n", ":1:"),
+        ("p.csv", "a,1e7\n", "a number up to 1e"),
+        ("p.csv", "jawOpen,0.5\njawOpen,0.7\n", r"p\.csv:2: 'jawOpen' is there twice"),
+        ("p.csv", "", "no weights"),
         ("p.txt", "", r"no poses in '\.txt', there are: \.json, \.csv"),
     ],
 )
@@ -243,3 +246,12 @@ def test_two_pins_on_one_vertex_are_refused(tmp_path: Path) -> None:
     path.write_text('{"pins": [{"vertex": 3, "move": [0, 1, 0]}, {"vertex": 3, "move": [0, -1, 0]}]}')
     with pytest.raises(FacepinError, match=r"pins\[1\].*vertex 3 is held by.*pins\[0\]"):
         read_pins(path, sheet())
+
+
+@pytest.mark.parametrize("suffix", [".json", ".csv"])
+def test_no_pose_is_written_that_could_not_be_read_again(tmp_path: Path, suffix: str) -> None:
+    weights = np.zeros(RIG.shape_count)
+    weights[0] = 2e6
+    with pytest.raises(FacepinError, match="hold up to"):
+        write_pose(tmp_path / f"p{suffix}", RIG, Pose(weights))
+    assert not list(tmp_path.iterdir())

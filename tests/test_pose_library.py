@@ -71,6 +71,17 @@ def test_pose_files_from_elsewhere_are_in_the_library_and_keep_what_they_say(tmp
     assert written["pins"] == document["pins"]
 
 
+@pytest.mark.parametrize("note", ['"\\ud800"', "1e999"])
+def test_what_cannot_be_written_again_is_told_and_stays(tmp_path: Path, note: str) -> None:
+    text = f'{{"weights": {{"shape0": 0.5}}, "note": {note}}}'
+    (tmp_path / "odd.json").write_text(text)
+    session, shelf = library(tmp_path)
+    session.arrange("Rename", {"odd": _titled(shelf.pose("odd"), "Even")})
+    with pytest.raises(FacepinError, match=r"odd\.json: a field"):
+        shelf.follow()
+    assert (tmp_path / "odd.json").read_text() == text
+
+
 def _titled(pose: SavedPose, title: str) -> SavedPose:
     return SavedPose(pose.key, title, pose.tags, pose.order, pose.weights, pose.report, pose.document)
 

@@ -276,6 +276,7 @@ def test_the_command_movie(rig: Path, tmp_path: Path) -> None:
     write_pins(tmp_path / "pins.json", (Pin(40, (x, y + 0.3, z)), Pin(20, (x, y, z + 0.3))))
     words = ["movie", str(rig), "--pins", str(tmp_path / "pins.json"), "--frames", "3", "--size", "120x80"]
     assert main([*words, "--out", str(tmp_path / "movie.png")]) == 0
+    assert main([*words[:-1], "300x12", "--out", str(tmp_path / "flat.png")]) == 0
     with Image.open(tmp_path / "movie.png") as moving:
         assert moving.size == (120, 80)
         assert moving.n_frames >= 7  # pictures that are alike are one, shown longer

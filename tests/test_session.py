@@ -126,7 +126,7 @@ def _broken(weights: object) -> SolverKind:
     return SolverKind("broken", "Broken", "", kind.settings, prepare)
 
 
-@pytest.mark.parametrize("weights", [np.nan, np.inf, np.linalg.LinAlgError("singular")])
+@pytest.mark.parametrize("weights", [np.nan, np.inf, 2e6, np.linalg.LinAlgError("singular")])
 def test_a_solver_that_fails_keeps_the_last_good_pose_and_says_so(weights: object) -> None:
     choice = choose("transpose")
     session = Session(RIG, [choice])

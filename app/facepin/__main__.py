@@ -8,6 +8,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import sys
 from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Sequence
+from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -32,6 +33,9 @@ class _Parser(ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program; return its exit status: 0, or 2 after an error in one line on stderr."""
     words = list(sys.argv[1:] if arguments is None else arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # names of shapes may be in any script, whatever the terminal's
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     try:
         if words and words[0] in COMMANDS:
             command = COMMANDS[words[0]]
@@ -39,13 +43,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
             command.add_options(parser)
             command.run(parser.parse_args(words[1:]))
         else:
+            if words and not words[0].startswith("-"):
+                _check_rig(rig_path(words[0]))
             _window(_window_parser().parse_args(words))
+        sys.stdout.flush()
     except FacepinError as error:
         print(f"facepin: {error}", file=sys.stderr)
         return 2
-    except BrokenPipeError:
-        # Whoever read the output has gone; what is still to be flushed at exit must go somewhere.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except MemoryError as error:
+        print(f"facepin: there is not enough memory for this: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        has_gone = isinstance(error, BrokenPipeError)  # whoever read the output
+        if not has_gone:
+            print(f"facepin: {error}", file=sys.stderr)
+        if (output := sys.__stdout__) is not None and output is sys.stdout:
+            # What is still to be flushed at exit must go somewhere.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), output.fileno())
+        return 0 if has_gone else 2
     except KeyboardInterrupt:
         return 130
     return 0
@@ -75,12 +90,17 @@ def _window_parser() -> ArgumentParser:
     return parser
 
 
+def _check_rig(path: Path) -> None:
+    if not path.exists():
+        raise FacepinError(f"'{path}' is neither a rig nor a command (commands: {', '.join(COMMANDS)})")
+
+
 def _window(options: Namespace) -> None:
     """Open the window; without a display, run the demonstration instead."""
-    if options.rig is not None and not options.rig.exists():
-        raise FacepinError(
-            f"'{options.rig}' is neither a rig nor a command (commands: {', '.join(COMMANDS)})"
-        )
+    if options.rig is not None:
+        _check_rig(options.rig)
+    if options.solver and options.compare:
+        raise FacepinError("--solver and --compare both name solvers to begin with, allowed is one of them")
     is_scene = options.rig is not None and options.rig.suffix.lower() == SUFFIX
     own = [name for name in ("neutral", "solver", "compare", "pins", "pose") if getattr(options, name)]
     if is_scene and own:

@@ -1,6 +1,7 @@
 """The commands without a window: info, solve, render, export."""
 
 import json
+import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,7 +19,9 @@ from facepin.options import (
     add_solver,
     first_pose,
     open_with_bar,
+    output_path,
     picture_size,
+    png_path,
     solver_choices,
 )
 from facepin.session.solving import PinSolver
@@ -84,23 +87,36 @@ def _solve_options(parser: ArgumentParser) -> None:
         "--start", type=Path, metavar="POSE", help="pose to start from (default: the neutral)"
     )
     parser.add_argument(
-        "--out", type=Path, metavar="POSE", help="write the solved pose; with several solvers, one file each"
+        "--out",
+        type=output_path,
+        metavar="POSE",
+        help="write the solved pose; with several solvers, one file each",
     )
 
 
 def _solve(options: Namespace) -> None:
     from facepin.core.measures import out_of_range
-    from facepin.files.pose_file import write_pose
+    from facepin.files.pose_file import check_suffix, write_pose
 
     choices = solver_choices(options.solver, options.settings, options.limits)
+    if options.out is not None:
+        check_suffix(options.out)
     rig = open_with_bar(options.rig, options.neutral)
     start = Pose(np.zeros(rig.shape_count)) if options.start is None else first_pose(rig, options.start, None)
     pins = first_pose(rig, None, options.pins).pins
     found = {}
+    failures: list[FacepinError] = []
     for choice in choices:
         solver = PinSolver(rig, choice)
-        solver.solve(pins, start.weights)  # once to prepare: what is timed is a drag frame
-        solved = solver.solve(pins, start.weights)
+        try:
+            solver.solve(pins, start.weights)  # once to prepare: what is timed is a drag frame
+            solved = solver.solve(pins, start.weights)
+        except FacepinError as error:
+            failures.append(error)
+            if len(failures) == len(choices):
+                raise
+            print(f"facepin: {error}", file=sys.stderr)
+            continue
         found[choice.kind.key] = {
             "weights": dict(zip(rig.shape_names, solved.weights.tolist(), strict=True)),
             "pin_error": solved.pin_error,
@@ -118,7 +134,9 @@ def _solve(options: Namespace) -> None:
 
 def _render_options(parser: ArgumentParser) -> None:
     add_rig(parser)
-    parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file (default: the neutral)")
+    parser.add_argument(
+        "--pose", type=Path, metavar="FILE", help="pose file (default: the weights of the rig itself)"
+    )
     parser.add_argument(
         "--size", type=picture_size, default=(1280, 720), metavar="WxH", help="pixels (default: 1280x720)"
     )
@@ -141,7 +159,7 @@ def _render_options(parser: ArgumentParser) -> None:
         metavar="X",
         help="size of pins and edges; 2 looks like a HiDPI screen (default: 1)",
     )
-    parser.add_argument("--out", type=Path, required=True, metavar="PNG", help="where the picture goes")
+    parser.add_argument("--out", type=png_path, required=True, metavar="PNG", help="where the picture goes")
 
 
 def _render(options: Namespace) -> None:
@@ -155,8 +173,6 @@ def _render(options: Namespace) -> None:
 
     if not 0.1 <= options.scale <= 100:
         raise FacepinError(f"--scale {options.scale:g}: allowed are 0.1 to 100")
-    if options.out.suffix.lower() != ".png":
-        raise FacepinError(f"{options.out.name}: pictures are written as .png, found '{options.out.suffix}'")
     rig = open_with_bar(options.rig, options.neutral)
     pose = first_pose(rig, options.pose, None)
     positions = rig.evaluate(pose.weights)
@@ -189,10 +205,12 @@ def _render(options: Namespace) -> None:
 
 def _export_options(parser: ArgumentParser) -> None:
     add_rig(parser)
-    parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file (default: the neutral)")
+    parser.add_argument(
+        "--pose", type=Path, metavar="FILE", help="pose file (default: the weights of the rig itself)"
+    )
     parser.add_argument(
         "--out",
-        type=Path,
+        type=output_path,
         required=True,
         metavar="FILE",
         help="the suffix is the format: .glb, .obj, .ply or .stl",

@@ -88,6 +88,16 @@ def rig_path(text: str) -> Path:
     return path if path.exists() else builtin_faces().get(text, path)
 
 
+def output_path(text: str) -> Path:
+    """Read the path of what is to be written: it is better to know before the work than after it."""
+    path = Path(text)
+    if not path.name:
+        raise ArgumentTypeError(f"found '{text}', allowed: the name of a file or a folder")
+    if not path.parent.is_dir():
+        raise ArgumentTypeError(f"found '{text}', but there is no folder {path.parent}")
+    return path
+
+
 def picture_size(text: str) -> tuple[int, int]:
     """Read WxH, the width and height of a picture in pixels."""
     width, _, height = text.lower().partition("x")
@@ -97,7 +107,8 @@ def picture_size(text: str) -> tuple[int, int]:
 
 
 def png_path(text: str) -> Path:
-    """Read the path of a picture."""
+    """Read the path of a picture that is to be written."""
+    output_path(text)
     if Path(text).suffix.lower() != ".png":
         raise ArgumentTypeError(f"found '{text}', allowed: a path that ends in .png")
     return Path(text)

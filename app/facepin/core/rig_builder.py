@@ -239,8 +239,11 @@ def _numbers(values: ArrayLike | None, shape: tuple[int, ...], default: Any, whe
     array = np.array(np.broadcast_to(default, shape) if values is None else values, np.float64)
     if array.shape != shape:
         raise FacepinError(f"{where} are {array.shape} numbers, allowed: {shape}")
-    if not (np.abs(array) <= LARGEST_WEIGHT).all():
-        raise FacepinError(f"{where}: allowed are finite numbers up to {LARGEST_WEIGHT:.0e}")
+    wrong = array[~(np.abs(array) <= LARGEST_WEIGHT)]
+    if len(wrong):
+        raise FacepinError(
+            f"{where}: found {wrong[0]:g}, allowed are finite numbers up to {LARGEST_WEIGHT:.0e}"
+        )
     return array
 
 

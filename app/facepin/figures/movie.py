@@ -25,6 +25,7 @@ from facepin.options import (
     open_with_bar,
     picture_size,
     png_path,
+    rig_path,
     solver_choices,
 )
 from facepin.session.edit import Edit
@@ -60,7 +61,7 @@ class Moment:
 def add_options(parser: ArgumentParser) -> None:
     """Declare the options of `facepin movie`."""
     parser.add_argument(
-        "rig", type=Path, nargs="?", metavar="RIG", help="face to pose (default: the built-in one)"
+        "rig", type=rig_path, nargs="?", metavar="RIG", help="face to pose (default: the built-in one)"
     )
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
     parser.add_argument(
@@ -171,9 +172,9 @@ def _sliders(
 ) -> None:
     """Draw a bar for the weight of each shape; box is left, top, width, height."""
     left, top, width, height = box
-    pad = round(0.05 * width)
+    pad = round(0.05 * min(width, height))
     step = (height - 2 * pad) / max(len(shapes), 10)
-    words = font("Regular", min(0.5 * step, 0.062 * width))
+    words = font("Regular", max(min(0.5 * step, 0.062 * width), 1.0))
     split = left + pad + 0.6 * (width - 2 * pad)
     right = left + width - pad
     for row, j in enumerate(shapes):

@@ -139,14 +139,14 @@ def run(options: Namespace) -> None:
     rig = open_with_bar(options.rig, options.neutral)
     with _bar(options.trials) as progress:
         found = study(rig, protocol, choices, freedoms, options.trials, options.jobs, progress=progress)
-    if options.out is not None:
-        write_study(options.out, found)
     if options.json:
         sys.stdout.write(json.dumps(as_json(found), indent=2, ensure_ascii=False) + "\n")
-        return
-    from rich.console import Console
+    else:
+        from rich.console import Console
 
-    Console().print(as_table(found))
+        Console().print(as_table(found))
+    if options.out is not None:  # last: if that fails, what was found is there to be read
+        write_study(options.out, found)
 
 
 @contextmanager

@@ -19,7 +19,9 @@ SECONDS = 2.4
 def add_options(parser: ArgumentParser) -> None:
     """Declare the options of `facepin turntable`."""
     add_rig(parser)
-    parser.add_argument("--pose", type=Path, metavar="FILE", help="pose file (default: the neutral)")
+    parser.add_argument(
+        "--pose", type=Path, metavar="FILE", help="pose file (default: the weights of the rig itself)"
+    )
     parser.add_argument(
         "--frames", type=count, default=36, metavar="N", help="pictures of one turn (default: 36)"
     )

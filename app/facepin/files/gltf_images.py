@@ -22,7 +22,7 @@ LARGEST = 8192
 """Width and height up to which pictures are read."""
 KEPT = 2048
 """Width and height up to which they stay as they are; larger ones are halved until they fit."""
-MOST_PIXELS = 2 * LARGEST**2
+MOST_PIXELS = LARGEST**2
 """Of all pictures of a file together: a few bytes can unfold to very many."""
 MOST_BYTES = 256 << 20
 """Size of a picture's file."""
@@ -78,7 +78,8 @@ class Textures:
             with Image.open(io.BytesIO(content), formats=FORMATS) as picture:
                 self._check_size(picture, where)
                 picture.draft("RGB", (KEPT, KEPT))  # JPEG alone: decodes no more than is kept
-                pixels = picture.convert("RGBA")
+                small = picture.reduce(-(-max(picture.size) // KEPT)) if _is_plain(picture) else picture
+                pixels = small.convert("RGBA")
         except FacepinError:
             raise
         except Exception as error:  # Pillow raises whatever its decoders stumble over
@@ -98,6 +99,11 @@ class Textures:
             raise FacepinError(
                 f"{where}: the pictures have more than {MOST_PIXELS >> 20} million pixels together"
             )
+
+
+def _is_plain(picture: "Image") -> bool:
+    """Say whether a large picture can be made smaller as it is, before it takes four bytes a pixel."""
+    return max(picture.size) > KEPT and picture.mode in ("L", "LA", "RGB", "RGBA")
 
 
 def cutout(document: GltfDocument, primitive: JsonObject) -> float | None:

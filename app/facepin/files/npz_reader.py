@@ -169,7 +169,9 @@ class Extras:
         try:
             member = self._archive.member(key)
             if member.dtype.kind not in kinds or (shape is not None and member.shape != shape):
-                raise FacepinError(f"it is {member.dtype} {member.shape}, expected {shape or 'texts'}")
+                raise FacepinError(
+                    f"it is {member.dtype} {member.shape}, expected {_KINDS[kinds]} {shape or ''}".rstrip()
+                )
             array = self._archive.array(member)
             if member.dtype.kind == "f" and not np.isfinite(array).all():
                 raise FacepinError("it has numbers that are not finite")
@@ -179,6 +181,12 @@ class Extras:
         return array
 
 
+_KINDS = {"iu": "whole numbers", "fu": "floats or bytes", "f": "floats", "US": "texts"}
+
+
 def _unit(colours: NDArray[Any]) -> NDArray[np.float32]:
-    """Return colours 0..1; bytes are divided by 255."""
-    return (colours / 255.0 if colours.dtype.kind == "u" else np.clip(colours, 0.0, 1.0)).astype(np.float32)
+    """Return colours 0..1; whole numbers are shares of the largest that their type has."""
+    if colours.dtype.kind == "u":
+        colours = colours / np.float64(np.iinfo(colours.dtype).max)
+    unit: NDArray[np.float32] = np.clip(colours, 0.0, 1.0).astype(np.float32)
+    return unit

@@ -124,6 +124,7 @@ def _axes(entry: JsonObject) -> tuple[Vector, Vector]:
     if not isinstance(found, list) or len(found) != 2:
         entry.refuse("axes", "two vectors, right and up of the camera")
     right, up = (_vector(JsonObject({"axes": axis}, entry.where), "axes") for axis in found)
-    if np.linalg.norm(np.cross(right, up)) < 1e-6:
+    square = np.array([right, up]) @ np.array([right, up]).T
+    if not np.allclose(square, np.eye(2), atol=1e-3):
         entry.refuse("axes", "two vectors of length 1 at right angles")
     return right, up

@@ -82,20 +82,40 @@ def write_pose(path: Path, rig: Rig, pose: Pose) -> None:
     FacepinError
         For another suffix, or if it cannot be written.
     """
+    check_suffix(path)
     if path.suffix.lower() == ".csv":
         table = StringIO()
-        rows = [("shape", "weight"), *_by_name(rig, pose).items()]
+        rows = [("shape", "weight"), *pose_document(rig, pose)["weights"].items()]
         csv.writer(table, lineterminator="\n").writerows(rows)
         atomic_write(path, table.getvalue().encode())
         return
-    if path.suffix.lower() != ".json":
-        raise _unknown_suffix(path)
     text = json.dumps(pose_document(rig, pose), indent=1, ensure_ascii=False, allow_nan=False)
     atomic_write(path, f"{text}\n".encode())
 
 
+def check_suffix(path: Path) -> None:
+    """Refuse a path that is none of a pose file.
+
+    Raises
+    ------
+    FacepinError
+        Naming the suffixes that there are.
+    """
+    if path.suffix.lower() not in READERS:
+        raise _unknown_suffix(path)
+
+
 def pose_document(rig: Rig, pose: Pose) -> dict[str, Any]:
-    """Return what a pose file holds."""
+    """Return what a pose file holds.
+
+    Raises
+    ------
+    FacepinError
+        For a weight that could not be read again.
+    """
+    for name, weight in _by_name(rig, pose).items():
+        if abs(weight) > LARGEST_WEIGHT:
+            raise FacepinError(f"the weight of {name} is {weight:.3g}, files hold up to {LARGEST_WEIGHT:.0e}")
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -147,9 +167,16 @@ def _read_csv(path: Path, rig: Rig) -> Content:
         if weight is None:
             found = ",".join(row)[:60]
             raise FacepinError(
-                f"{path.name}:{number}: found {found!a}, allowed: a shape's name, a comma, a number"
+                f"{path.name}:{number}: found {found!a}, allowed: a shape's name, a comma, "
+                f"a number up to {LARGEST_WEIGHT:.0e}"
             )
+        if row[0] in weights:
+            raise FacepinError(f"{path.name}:{number}: {row[0]!a} is there twice, allowed: once")
         weights[row[0]] = weight
+    if not weights:
+        raise FacepinError(
+            f"{path.name}: no weights, allowed: one or more lines with a shape's name, a number"
+        )
     return weights, (), []
 
 

@@ -144,8 +144,12 @@ def write_saved(folder: Path, saved: SavedPose) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FacepinError(f"{folder}: cannot be made: {error.strerror or error}") from error
-    text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    atomic_write(folder / f"{saved.key}.json", text.encode())
+    try:
+        text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        content = text.encode()
+    except ValueError as error:  # what others have put into the file, and Facepin does not know
+        raise FacepinError(f"{saved.key}.json: a field can't be written again: {error}") from error
+    atomic_write(folder / f"{saved.key}.json", content)
 
 
 def remove_saved(folder: Path, key: str) -> None:

@@ -407,4 +407,9 @@ class Session:
         if control.held.any():  # a shape may have been locked after the weights that the solver starts from
             weights = np.where(control.held, pane.pose.weights, weights)
         solved = solver.solve(start.pins, weights)
+        largest = float(np.abs(solved.weights).max(initial=0.0))
+        if largest > LARGEST_WEIGHT:  # it could not be saved
+            raise FacepinError(
+                f"{pane.choice.kind.title} gave a weight of {largest:.0e}, allowed are {LARGEST_WEIGHT:.0e}"
+            )
         return replace(pane, pose=start.with_weights(solved.weights), solved=solved)

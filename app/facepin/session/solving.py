@@ -150,12 +150,12 @@ class _Prepared:
         """Return weights (k,), and what the solver notes."""
         solution = self.solve(self.linear.displacement(displacement), self.linear.taken(start))
         if not np.isfinite(solution.weights).all():
-            raise FacepinError(f"{self.title} gave weights that are not finite; the last pose is kept")
+            raise FacepinError(f"{self.title} gave weights that are not finite")
         weights = self.linear.given_back(solution.weights, start)
         largest = float(np.abs(self.problem.amounts(weights)).max(initial=0.0))
         if largest > LARGEST_AMOUNT:
             # Products of weights grow faster than weights: what can't be drawn must not become the pose.
-            raise FacepinError(f"{self.title} moves shapes {largest:.0e} times as far; the last pose is kept")
+            raise FacepinError(f"{self.title} moves shapes {largest:.0e} times as far as they go")
         return weights, solution.notes
 
 

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from facepin.core.rig import Rig, Texture
-from facepin.files import gltf_images, open_rig
+from facepin.files import gltf_images, open_rig, write_model
 from sample_files import Gltf, face_gltf
 
 PLACES = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32)
@@ -172,3 +172,32 @@ def test_white_is_the_colour_of_textured_vertices_beside_coloured_ones(tmp_path:
     np.testing.assert_allclose(rig.colours[:4], 1.0)
     np.testing.assert_allclose(rig.colours[4:], 0.5371, atol=1e-3)
     np.testing.assert_array_equal(rig.texture_places[4:], 0)
+
+
+@pytest.mark.parametrize("mode", ["OPAQUE", "MASK"])
+def test_a_texture_is_written_and_comes_back(tmp_path: Path, mode: str) -> None:
+    pixels = np.dstack([PIXELS, np.array([[255, 0], [128, 255]], np.uint8)])
+    gltf = textured(png(pixels if mode == "MASK" else PIXELS), alphaMode=mode)
+    gltf.json["samplers"] = [{"wrapS": 33071}]
+    gltf.json["textures"][0]["sampler"] = 0
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    write_model(rig, np.zeros(rig.shape_count), tmp_path / "again.glb")
+    again = open_rig(tmp_path / "again.glb")
+    np.testing.assert_array_equal(texture(again).pixels, texture(rig).pixels)
+    assert texture(again).repeats == texture(rig).repeats == (False, True)
+    np.testing.assert_array_equal(again.texture_places, rig.texture_places)
+    assert again.parts[0].cutout == rig.parts[0].cutout
+    assert again.parts[0].colour == pytest.approx(rig.parts[0].colour, abs=1e-6)
+    assert again.warnings == ()
+
+
+def test_real_textures_are_written_once_each(shared: Path, tmp_path: Path) -> None:
+    (source,) = (shared / "models/khronos_morph_samples/MorphStressTest").rglob("*.gltf")
+    rig = open_rig(source)
+    write_model(rig, np.zeros(rig.shape_count), tmp_path / "again.glb")
+    again = open_rig(tmp_path / "again.glb")
+    for part, copy in zip(rig.parts, again.parts, strict=True):
+        assert part.texture is not None and copy.texture is not None
+        np.testing.assert_array_equal(copy.texture.pixels, part.texture.pixels)
+    count = len({part.texture for part in rig.parts})
+    assert (tmp_path / "again.glb").read_bytes().count(b"image/png") == count

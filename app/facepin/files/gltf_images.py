@@ -28,8 +28,8 @@ MOST_BYTES = 256 << 20
 """Size of a picture's file."""
 FORMATS = ("PNG", "JPEG")
 """What glTF allows."""
-CLAMP = 33071
-"""glTF's word for a picture that does not repeat beyond its edge."""
+REPEAT, CLAMP = 10497, 33071
+"""glTF's words for a picture that goes on beyond its edges, and for one whose edge does."""
 
 
 class Textures:
@@ -61,7 +61,7 @@ class Textures:
         image = root.children("images")[entry.integer("source")]
         sampler = entry.optional_integer("sampler")
         wrap = root.children("samplers")[sampler] if sampler is not None else JsonObject({}, entry.where)
-        repeats = (wrap.integer("wrapS", 10497) != CLAMP, wrap.integer("wrapT", 10497) != CLAMP)
+        repeats = (wrap.integer("wrapS", REPEAT) != CLAMP, wrap.integer("wrapT", REPEAT) != CLAMP)
         pixels = self._decoded(self._content(image), image.where)
         return Texture(frozen(pixels, np.uint8), repeats)
 

@@ -1,5 +1,6 @@
 """The rig as .glb: every vertex in its place, shapes as morph targets, parts as primitives sharing both."""
 
+import io
 import json
 import struct
 from pathlib import Path
@@ -10,9 +11,10 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats, Points, frozen
 from facepin.core.normals import NormalField
-from facepin.core.rig import Part, Rig
+from facepin.core.rig import Part, Rig, Texture
 from facepin.files.atomic import atomic_write
 from facepin.files.gltf_document import BINARY_CHUNK, JSON_CHUNK
+from facepin.files.gltf_images import CLAMP, REPEAT
 from facepin.files.gltf_materials import srgb_to_linear
 from facepin.files.gltf_targets import COMBINATIONS
 
@@ -25,8 +27,9 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
 
     glTF knows no combinations.  Each is written as one more target whose weight is the product of the two
     weights, so that the pose looks right everywhere, and `extras` of the mesh say which targets these are.
-    Faces become triangles.  Normals are those of the neutral, and nothing is said about how shapes change
-    them.  Shapes are stored sparse where that is smaller.
+    Faces become triangles.  Textures are stored as PNG, as large as they were read.  Normals are those of
+    the neutral, and nothing is said about how shapes change them.  Shapes are stored sparse where that is
+    smaller.
 
     Raises
     ------
@@ -37,6 +40,8 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
     attributes = {"POSITION": packed.points(rig.neutral, bounds=True), "NORMAL": packed.points(_normals(rig))}
     if rig.colours is not None:
         attributes["COLOR_0"] = packed.points(srgb_to_linear(rig.colours))
+    if rig.texture_places is not None:
+        attributes["TEXCOORD_0"] = packed.points(rig.texture_places)
     targets = [
         {"POSITION": packed.delta(*_moves(rig, j), rig.vertex_count)} for j in range(rig.deltas.shape[1])
     ]
@@ -63,7 +68,7 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
         "scenes": [{"nodes": [0]}],
         "nodes": [{"name": rig.name, "mesh": 0}],
         "meshes": [mesh],
-        "materials": [_material(part, rig.colours is not None) for part in rig.parts],
+        **_looks(rig, packed),
         "accessors": packed.accessors,
         "bufferViews": packed.views,
         "buffers": [{"byteLength": len(packed.content)}],
@@ -90,12 +95,12 @@ class _Packed:
         self.accessors: list[dict[str, Any]] = []
 
     def points(self, points: Points, *, bounds: bool = False) -> int:
-        """Store (n, 3) floats and return their accessor."""
+        """Store (n, 2 or 3) floats and return their accessor."""
         entry: dict[str, Any] = {
             "bufferView": self._view(points, ARRAY_BUFFER),
             "componentType": FLOAT,
             "count": len(points),
-            "type": "VEC3",
+            "type": f"VEC{points.shape[1]}",
         }
         return self._accessor(entry | (_bounds(points) if bounds else {}))
 
@@ -126,6 +131,15 @@ class _Packed:
         return self._accessor(
             {"bufferView": view, "componentType": component, "count": len(flat), "type": "SCALAR"}
         )
+
+    def picture(self, texture: Texture) -> int:
+        """Store a picture as PNG and return its view."""
+        from PIL import Image
+
+        pixels = texture.pixels if (texture.pixels[..., 3] < 255).any() else texture.pixels[..., :3]
+        file = io.BytesIO()
+        Image.fromarray(np.ascontiguousarray(pixels)).save(file, "PNG")
+        return self._view(np.frombuffer(file.getbuffer(), np.uint8))
 
     def _view(self, array: NDArray[Any], target: int | None = None) -> int:
         self.content += bytes(-len(self.content) % 4)
@@ -159,12 +173,37 @@ def _normals(rig: Rig) -> Points:
     return frozen(normals, np.float32)
 
 
-def _material(part: Part, coloured: bool) -> dict[str, Any]:
+def _looks(rig: Rig, packed: _Packed) -> dict[str, Any]:
+    """Return what the document says of materials and of pictures on them, each of which is stored once."""
+    used = [part.texture for part in rig.parts if part.texture is not None and rig.texture_places is not None]
+    numbers = {texture: number for number, texture in enumerate(dict.fromkeys(used))}
+    looks: dict[str, Any] = {
+        "materials": [
+            _material(part, rig.colours is not None, numbers.get(part.texture) if part.texture else None)
+            for part in rig.parts
+        ]
+    }
+    if numbers:
+        looks["images"] = [
+            {"bufferView": packed.picture(texture), "mimeType": "image/png"} for texture in numbers
+        ]
+        looks["samplers"] = [
+            dict(zip(("wrapS", "wrapT"), [REPEAT if on else CLAMP for on in texture.repeats], strict=True))
+            for texture in numbers
+        ]
+        looks["textures"] = [{"source": number, "sampler": number} for number in numbers.values()]
+    return looks
+
+
+def _material(part: Part, coloured: bool, texture: int | None) -> dict[str, Any]:
     """Return the material of a part; white where the vertices carry the colour."""
     shine: dict[str, Any] = {"metallicFactor": 0.0, "roughnessFactor": part.roughness}
     if part.colour is not None and not coloured:
         shine["baseColorFactor"] = [*map(float, srgb_to_linear(part.colour)), 1.0]
-    return {"name": part.name, "pbrMetallicRoughness": shine, "doubleSided": True}
+    if texture is not None:
+        shine["baseColorTexture"] = {"index": texture}
+    cut = {} if part.cutout is None else {"alphaMode": "MASK", "alphaCutoff": part.cutout}
+    return {"name": part.name, "pbrMetallicRoughness": shine, "doubleSided": True, **cut}
 
 
 def _container(document: dict[str, Any], binary: bytes) -> bytes:

@@ -37,7 +37,8 @@ class Shown:
 
     def draw(self, *views: PaneView, fine: bool = True) -> np.ndarray:
         sights = [(pane, camera(self.rig)) for pane in PANES]
-        self.stage.draw(self.canvas, sights, views, DragTool(), 1.0, fine=fine, beside=(0.0, 0.0, 0.0, 1.0))
+        self.stage.draw(self.canvas, sights, views, 1.0, fine=fine, beside=(0.0, 0.0, 0.0, 1.0))
+        self.stage.draw_pins(self.canvas, sights, DragTool(), 1.0)
         return self.canvas.read().astype(int)
 
     def stretch(self, weight: float) -> None:

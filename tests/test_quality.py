@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import moderngl
+import numpy as np
 import pytest
 
 from driver import running
@@ -104,3 +105,37 @@ def test_what_earlier_versions_remembered_counts(tmp_path: Path, then: str, now:
     assert (found.quality, complaint) == (now, None)
     file.write_text(json.dumps({"quality": ["always"]}))
     assert "quality" in str(read_preferences(file)[1])
+
+
+def test_the_mouse_on_a_pin_draws_no_face_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    faces: list[Stage] = []
+    plain = Stage.draw
+
+    def noted(stage: Stage, *rest: object, **more: object) -> None:
+        faces.append(stage)
+        plain(stage, *rest, **more)
+
+    with running(size=(500, 400), solver="transpose,tikhonov") as app:
+        x, y = app.pixel_of(2000)
+        app.press(x, y)
+        app.release(x, y)
+        app.desk.tool.selected = frozenset()
+        app.step(PointerMoved(5, 395), frames=4)
+        monkeypatch.setattr(Stage, "draw", noted)
+
+        def seen() -> np.ndarray:
+            return app.screenshot()[30:370, :240]  # not the time of the frame
+
+        plain_pin = seen()
+        app.step(PointerMoved(x, y), frames=4)
+        assert app.desk.tool.hovered == app.session.pose.pins[0].vertex
+        assert (seen() != plain_pin).any()
+        app.step(PointerMoved(5, 395), frames=4)
+        assert not faces, "only pins were drawn"
+        np.testing.assert_array_equal(seen(), plain_pin)
+        app.window.resize((520, 400))  # the very picture anew
+        app.step(PointerMoved(5, 394), frames=4)
+        app.window.resize((500, 400))
+        app.step(PointerMoved(5, 395), frames=4)
+        assert faces
+        np.testing.assert_array_equal(seen(), plain_pin)

@@ -269,13 +269,12 @@ class Stage:
         canvas: Canvas,
         sights: Sequence[tuple[Viewport, Camera]],
         overlays: Sequence[PaneView],
-        tool: DragTool,
         scale: float,
         *,
         fine: bool,
         beside: Colour,
     ) -> None:
-        """Draw every pane with its pins.
+        """Draw the face of every pane.
 
         Parameters
         ----------
@@ -285,8 +284,6 @@ class Stage:
             Where each pane is and how it is seen.
         overlays : sequence of PaneView
             What each pane shows over its face.
-        tool : DragTool
-            Which pins are held, hovered or selected.
         scale : float
             Pixels per pixel of a 1x screen.
         fine : bool
@@ -306,10 +303,16 @@ class Stage:
             ]
             self._still.draw(canvas, sights, faces, beside)
             part = "moving"
-        for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
-            framing = frame(camera, viewport)
+        for at, (viewport, camera) in enumerate(sights):
             over = self.overlays(at, overlays[at])
-            draw_pane(canvas, framing, self._shown[at].mesh, over, fine=fine, part=part, scale=scale)
+            mesh = self._shown[at].mesh
+            draw_pane(canvas, frame(camera, viewport), mesh, over, fine=fine, part=part, scale=scale)
+
+    def draw_pins(
+        self, canvas: Canvas, sights: Sequence[tuple[Viewport, Camera]], tool: DragTool, scale: float
+    ) -> None:
+        """Draw the pins of every pane over their faces; `tool` holds, hovers and selects some."""
+        for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
             markers = _markers(pane.pose, self.positions(at), tool)
             self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 

@@ -21,6 +21,10 @@ class Painting:
         # A card shows any texture as fast; a processor, one that is stored as screens are.
         self._canvases = Canvases(ctx, make_texture if self._software else None)
         self._drawn: object = None
+        self._rest: Canvas | None = None
+        """Without a graphics card: the last faces that rested, without pins."""
+        self._resting: object = None
+        """What these faces depend on."""
         self._flat: moderngl.Framebuffer | None = None
         self._most = max(each.samples for each in LEVELS.values())
         """Samples per pixel that there was room for."""
@@ -51,14 +55,35 @@ class Painting:
             Whether more pictures will follow at once, so that this one should be fast.
         """
         quality = level(desk.view.quality, software=self._software, moving=moving)
-        wanted = _key(desk, stage, viewports, quality, size)
-        if wanted == self._drawn:
+        faces, tool = _key(desk, stage, viewports, quality, size), desk.tool
+        hands = (tool.selected, tool.hovered, tool.held)
+        if self._drawn == (faces, hands):
             return
         canvas = self._canvas(desk, quality.samples, size)
         sights = list(zip(viewports, desk.cameras, strict=True))
-        panes, scale = desk.view.panes, desk.pixel_scale
-        stage.draw(canvas, sights, panes, desk.tool, scale, fine=quality.fine, beside=beside)
-        self._drawn, self._flat = wanted, canvas.flat()
+        if self._rest is not None and self._resting == faces:
+            self._rest.copy_to(canvas)
+        else:
+            panes, scale = desk.view.panes, desk.pixel_scale
+            stage.draw(canvas, sights, panes, scale, fine=quality.fine, beside=beside)
+            if self._software and quality.fine and not moving:
+                self._keep(canvas, faces)
+        stage.draw_pins(canvas, sights, tool, desk.pixel_scale)
+        self._drawn, self._flat = (faces, hands), canvas.flat()
+
+    def _keep(self, canvas: Canvas, faces: object) -> None:
+        """Keep faces that rest: a processor takes long for them, and the mouse passes over pins often."""
+        if self._rest is None or self._rest.samples != canvas.samples:
+            self._let_go()
+            self._rest = canvas.twin()
+        self._rest.resize(*canvas.size)
+        canvas.copy_to(self._rest)
+        self._resting = faces
+
+    def _let_go(self) -> None:
+        if self._rest is not None:
+            self._rest.release()
+        self._rest = self._resting = None
 
     def flat(self) -> moderngl.Framebuffer:
         """Return the last picture with one sample per pixel."""
@@ -78,6 +103,7 @@ class Painting:
 
     def release(self) -> None:
         """Give the graphics memory back."""
+        self._let_go()
         self._canvases.release()
 
 
@@ -89,10 +115,8 @@ def _is_software(ctx: moderngl.Context) -> bool:
 def _key(
     desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], quality: Level, size: tuple[int, int]
 ) -> tuple[object, ...]:
-    """Return everything the picture depends on; the same key means the same picture."""
-    tool = desk.tool
+    """Return everything that faces depend on; the same key means the same picture but for the pins."""
     overlays = tuple(pane.key for pane in desk.view.panes)
     work = stage.session.work
-    hands = (tool.selected, tool.hovered, tool.held)
     seen = (quality, size, viewports, tuple(desk.cameras), desk.view.theme)
-    return (stage, stage.refined, work, desk.pixel_scale, *seen, overlays, hands)
+    return (stage, stage.refined, work, desk.pixel_scale, *seen, overlays)

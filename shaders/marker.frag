@@ -4,12 +4,11 @@
 #include "behind.glsl"
 
 uniform float scale;
-uniform vec4 rectangle;   // x, y, width, height of the picture in the framebuffer
 
 flat in vec4 ends;
 flat in vec4 style;
 flat in vec2 shape;
-flat in vec3 middle;
+flat in float strength;
 
 out vec4 pixel;
 
@@ -32,18 +31,6 @@ float to_square(vec2 p, float radius)
 float covered(float away, float edge)
 {
     return clamp(edge - away + 0.5, 0.0, 1.0);
-}
-
-// A marker is dimmed as a whole, softly as it goes behind something.  (Not told by the vertex shader: what it
-// reads of a depth that has just been drawn may be that of before, where a processor draws.)
-float seen()
-{
-    vec2 low = rectangle.xy + 0.5, high = rectangle.xy + rectangle.zw - 0.5;
-    float sum = 0.0;
-    for (int y = -1; y <= 1; y++)
-        for (int x = -1; x <= 1; x++)
-            sum += unhidden(clamp(middle.xy + scale * vec2(x, y), low, high), middle.z);
-    return sum / 9.0;
 }
 
 vec4 over(vec4 front, vec4 back)
@@ -74,6 +61,6 @@ void main()
     if (shape.x >= 2.0)
         c = over(vec4(OUTLINE, 0.9 * covered(away, 0.3 * half_width)), c);
     // A line dips in and out of the face along its way.
-    c.a *= mix(HIDDEN, 1.0, shape.x == 0.0 ? unhidden(gl_FragCoord.xy, gl_FragCoord.z) : seen());
+    c.a *= shape.x == 0.0 ? mix(HIDDEN, 1.0, unhidden(gl_FragCoord.xy, gl_FragCoord.z)) : strength;
     pixel = vec4(c.rgb * c.a, c.a);   // premultiplied, so that pictures without a background add up
 }

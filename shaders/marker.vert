@@ -2,6 +2,8 @@
 // Pins: per instance three quads, in this order: the line from vertex to goal, the goal's ring, the vertex's disc.
 // Sizes are pixels, whatever the distance.
 
+#include "behind.glsl"
+
 uniform mat4 to_view;
 uniform mat4 to_clip;
 uniform vec4 rectangle;      // x, y, width, height of the picture in the framebuffer
@@ -17,7 +19,7 @@ in float square;  // 1: a square instead of the disc
 flat out vec4 ends;        // the two ends in pixels: the same one twice for disc and ring
 flat out vec4 style;       // colour of the core, strength of the halo
 flat out vec2 shape;       // x: kind, 0 line, 1 ring, 2 disc, 3 square; y: radius in pixels
-flat out vec3 middle;      // of disc and ring: where it is in pixels, and its depth 0..1
+flat out float strength;   // of disc and ring: less where the face is in front
 
 const vec2 CORNERS[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(-1, 1), vec2(1, -1), vec2(1, 1));
 const vec4 NOWHERE = vec4(2.0, 2.0, 2.0, 1.0);
@@ -26,6 +28,17 @@ const float MARGIN = 8.0;   // room for outline and halo, in points
 vec2 pixels(vec4 clip)
 {
     return rectangle.xy + (clip.xy / clip.w * 0.5 + 0.5) * rectangle.zw;
+}
+
+// A marker is dimmed as a whole, softly as it goes behind something.
+float seen(vec4 clip)
+{
+    vec2 at = pixels(clip), low = rectangle.xy + 0.5, high = rectangle.xy + rectangle.zw - 0.5;
+    float depth = clip.z / clip.w * 0.5 + 0.5, sum = 0.0;
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++)
+            sum += unhidden(clamp(at + scale * vec2(x, y), low, high), depth);
+    return sum / 9.0;
 }
 
 void main()
@@ -54,11 +67,10 @@ void main()
     ends = kind == 0 ? vec4(pa, pb) : at_goal ? vec4(pb, pb) : vec4(pa, pa);
     style = colour;
     shape = vec2(kind == 2 ? 2.0 + square : kind, scale * (kind == 0 ? 0.75 : kind == 1 ? 0.72 * radius : radius));
-    vec4 own = at_goal ? b : a;
-    middle = vec3(at_goal ? pb : pa, own.z / own.w * 0.5 + 0.5);
+    strength = mix(HIDDEN, 1.0, seen(at_goal ? b : a));
 
     vec2 offset = (corner.x * along + corner.y * vec2(-along.y, along.x)) * (shape.y + MARGIN * scale);
-    gl_Position = own;
+    gl_Position = at_goal ? b : a;
     gl_Position.xy += offset * 2.0 / rectangle.zw * gl_Position.w;
     // Nothing to see where the vertex is on its goal: the disc covers the ring.
     if (kind < 2 && distance < 0.5)

@@ -71,6 +71,8 @@ class GhostLayer:
         framing.use(canvas.with_second_depth)
         self._scene.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         self._render(self._shells[canvas.samples], "<=", moderngl.BLEND)
+        # Pins ask the same depth next, in their vertex shader: llvmpipe then does not wait for it to be drawn.
+        self._scene.ctx.finish()
 
     def _render(self, array: moderngl.VertexArray, depth_func: str, *flags: int) -> None:
         ctx = self._scene.ctx

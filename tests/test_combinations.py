@@ -221,6 +221,18 @@ def test_a_solver_that_is_kept_notices_another_start() -> None:
     )
 
 
+def test_what_is_near_is_asked_again_at_another_start() -> None:
+    choice = choose("transpose", SOLVERS["transpose"].settings(radius=20.0))
+    vertex = next(v for v in range(RIG.vertex_count) if not RIG.rows_at([v])[:, RIG.shape_count :].any())
+    x, y, z = RIG.neutral[vertex].astype(float).tolist()
+    pins = (Pin(vertex, (x + 0.3, y, z)),)
+    used = PinSolver(RIG, choice)
+    used.solve(pins, np.zeros(6))
+    np.testing.assert_array_equal(
+        used.solve(pins, WEIGHTS).weights, PinSolver(RIG, choice).solve(pins, WEIGHTS).weights
+    )
+
+
 def test_goals_snap_to_the_true_face() -> None:
     session = Session(RIG, [choose("transpose")])
     session.apply(Edit("Place pin", True, pins_at(RIG, np.zeros(6))))

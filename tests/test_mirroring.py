@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 
 from driver import App, running
+from facepin.core.mirror import find_mirror
+from facepin.core.pose import Pin
 from facepin.panels.commands import Command
 from facepin.panels.requests import PairShapes
 from facepin.session.edit import Edit
-from facepin.session.mirroring import linked_weights
+from facepin.session.mirroring import linked_weights, mirrored_weights, with_twins
+from small_rigs import sheet
 
 
 def pose(app: App, **weights: float) -> np.ndarray:
@@ -121,3 +124,34 @@ def test_sliders_of_left_and_right_are_linked_while_symmetry_is_on(app: App) -> 
     np.testing.assert_array_equal(linked[others], before[others])
     # Where both were changed, as by a gain, nothing is exchanged.
     np.testing.assert_array_equal(linked_weights(mirror, before, 0.5 * before), 0.5 * before)
+
+
+def test_a_pin_on_the_middle_line_holds_it_where_it_is_now() -> None:
+    rig = sheet()
+    mirror = find_mirror(rig)
+    middle = int(np.flatnonzero(mirror.vertices == np.arange(rig.vertex_count))[0])
+    positions = rig.neutral + np.float32((0.4, 0.0, 0.0))  # a jaw that went aside
+    x, y, z = positions[middle].astype(float).tolist()
+    (pin,) = with_twins(mirror, (), (Pin(middle, (x, y, z)),), positions)
+    assert pin.goal == pytest.approx((x, y, z))
+
+
+def test_a_hidden_twin_stays() -> None:
+    rig = sheet()
+    mirror = find_mirror(rig)
+    vertex = int(np.flatnonzero((mirror.vertices >= 0) & (mirror.vertices != np.arange(rig.vertex_count)))[0])
+    twin = int(mirror.vertices[vertex])
+    pins = tuple(Pin(v, tuple(rig.neutral[v].astype(float).tolist())) for v in (vertex, twin))
+    before = (pins[0], replace(pins[1], hidden=True))
+    x, y, z = pins[0].goal
+    after = (replace(pins[0], goal=(x, y + 0.5, z)), before[1])
+    assert with_twins(mirror, before, after, rig.neutral)[1] == before[1]
+
+
+def test_what_two_sides_have_in_common_is_nothing_where_they_disagree() -> None:
+    rig = sheet()
+    found = find_mirror(rig)
+    mirror = replace(found, shapes=np.array([1, 0, 2, 3]), balance=np.zeros(4))
+    for weights, common in (([0.5, -0.3], 0.0), ([-0.4, 0.0], 0.0), ([-0.4, -0.1], -0.1), ([0.3, 0.8], 0.3)):
+        result = mirrored_weights(mirror, np.array([*weights, 0.0, 0.0]), "left to right")
+        assert result[:2].tolist() == [common, common]

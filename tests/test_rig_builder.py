@@ -139,7 +139,7 @@ def test_long_names_are_shortened():
 
 def test_names_become_unique_without_taking_a_name_that_is_there():
     names, remarks = clean_names(["a", "a", "a 2", "", "a", "shape_3"])
-    assert names == ["a", "a 3", "a 2", "shape_3", "a 4", "shape_3 2"]
+    assert names == ["a", "a 3", "a 2", "shape_3_", "a 4", "shape_3"]
     assert len(set(names)) == 6
     assert len(remarks) == 2
     assert clean_names(["x", "y"]) == (["x", "y"], [])
@@ -185,3 +185,10 @@ def test_an_error_is_one_printable_line_whatever_it_quotes():
     line = str(FacepinError("a\nb\x1b[0m\u202e" + "x" * 10_000))
     assert line.isprintable()
     assert len(line) == 400
+
+
+@pytest.mark.parametrize("size", [0.1, 20.0])
+def test_the_height_of_what_is_flat_is_its_extent(size: float) -> None:
+    points = size * np.array([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]])
+    rig = build_rig("flat", points, [0, 1, 2, 3], [4], [("move", np.ones((4, 3)))])
+    assert rig.height == pytest.approx(size)

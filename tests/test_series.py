@@ -97,6 +97,18 @@ def test_a_filmstrip_shows_the_steps_that_changed_the_pose() -> None:
     assert len(strip.stills(session)) == 3
 
 
+def test_a_filmstrip_is_that_of_its_pane() -> None:
+    session = Session(RIG, [choose("pseudo_inverse"), choose("transpose")])
+    session.active = 1
+    goal = tuple((RIG.neutral[30].astype(float) + 0.3).tolist())
+    session.apply(Edit("Drag", True, (Pin(30, goal),), solve=True))
+    kept = session.pane.pose.weights
+    session.close_pane(0)
+    stills = Filmstrip().stills(session)
+    assert [still.label for still in stills] == ["Start", "Drag"]
+    assert stills[1].pose.weights is kept
+
+
 def test_a_filmstrip_shows_muted_shapes_as_they_were_shown() -> None:
     session = Session(RIG, [choose("transpose")])
     session.apply(Edit("Set", True, weights=frozen([0.5, 0.6, 0.0, 0.0], np.float64)))

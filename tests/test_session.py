@@ -283,3 +283,38 @@ def test_no_weight_that_nothing_can_be_drawn_with_gets_in(weight: float) -> None
     assert session.work is before
     assert not session.in_gesture
     assert RIG.shape_names[1] in session.message
+
+
+@pytest.mark.parametrize("step", ["set_reference", "add_pane", "reset", "arrange", "compare", "set_control"])
+def test_what_is_begun_while_a_slider_is_on_its_way_leaves_it_there(step: str) -> None:
+    session = Session(RIG, [choose("transpose")])
+    slid = np.array([0.5, 0, 0, 0])
+    session.apply(Edit("Slide", False, weights=slid))
+    match step:
+        case "set_reference":
+            session.set_reference(slid)
+        case "add_pane":
+            session.add_pane(choose("hybrid"))
+        case "reset":
+            session.reset()
+        case "arrange":
+            session.arrange("Remove", {"smile": None})
+        case "compare":
+            session.compare("Compare", slid, slid)
+        case _:
+            session.set_control("Control", session.control)
+    assert session.steps[1].label == "Slide"
+    assert session.steps[1].value.panes[0].pose.weights.tolist() == slid.tolist()
+
+
+def test_undo_says_what_it_takes_back_in_a_gesture_too() -> None:
+    session = Session(RIG, [choose("transpose")])
+    session.apply(Edit("Set", True, weights=np.array([0.5, 0, 0, 0])))
+    session.apply(Edit("Slide", False, weights=np.array([0.6, 0, 0, 0])))
+    assert session.undo_label == "Slide"
+    assert session.undo()
+    assert session.undo_label == "Set"
+    session.apply(Edit("Too far", False, weights=np.array([1e9, 0, 0, 0])))
+    assert not session.in_gesture, "what was refused is no gesture"
+    session.keep_pane(0)
+    assert session.undo_label == "Set", "there is one pane already"

@@ -68,6 +68,7 @@ def _save(desk: Desk, path: Path) -> None:
     if desk.session is None:
         return
     path = path.absolute()
+    desk.session.settle()  # a slider may be on its way by wheel or key
     desk.keeper.save(desk.session, path, desk.snapshot())
     desk.opened = path
     desk.say(f"Saved {path}")

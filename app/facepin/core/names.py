@@ -38,6 +38,8 @@ def clean_names(names: Sequence[str], *, unnamed: str = "shape") -> tuple[list[s
         base = clean_name(name)
         if not base:
             base = f"{unnamed}_{j}"
+            while base in wanted:
+                base += "_"
             empty.append(base)
         elif base != name:
             mended.append(base)

@@ -104,7 +104,7 @@ class Rig:
     def height(self) -> float:
         """Extent of the neutral along y (the face height that percentages refer to), never zero."""
         extent = np.ptp(self.neutral, axis=0)
-        return float(extent[1] if extent[1] > 0 else max(extent.max(), 1.0))
+        return float(extent[1] or extent.max() or 1.0)
 
     @cached_property
     def columns(self) -> Columns:

@@ -71,7 +71,7 @@ class GhostLayer:
         framing.use(canvas.with_second_depth)
         self._scene.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         self._render(self._shells[canvas.samples], "<=", moderngl.BLEND)
-        # Pins ask the same depth next, in their vertex shader: llvmpipe then does not wait for it to be drawn.
+        # Pins ask for the same depth next, in their vertex shader: llvmpipe does not wait for it by itself.
         self._scene.ctx.finish()
 
     def _render(self, array: moderngl.VertexArray, depth_func: str, *flags: int) -> None:

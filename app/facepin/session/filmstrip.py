@@ -35,9 +35,12 @@ class Filmstrip:
 
 def _stills(session: Session) -> tuple[Still, ...]:
     stills: list[Still] = []
+    shown = session.committed.panes[min(session.active, len(session.committed.panes) - 1)].number
     for step in session.steps[: session.step + 1]:
-        panes = step.value.panes
-        pose = panes[min(session.active, len(panes) - 1)].pose
+        pane = next((pane for pane in step.value.panes if pane.number == shown), None)
+        if pane is None:  # it was opened later
+            continue
+        pose = pane.pose
         heard = step.value.control.heard(pose.weights)
         if heard is not pose.weights:
             pose = pose.with_weights(heard)

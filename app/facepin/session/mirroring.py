@@ -25,7 +25,9 @@ def mirrored_weights(mirror: Mirror, weights: Floats, way: Way) -> Floats:
     result = np.array(weights, np.float64)
     pairs = np.flatnonzero((mirror.shapes >= 0) & (mirror.shapes != np.arange(len(weights))))
     twins = mirror.shapes[pairs]
-    result[pairs] = np.minimum(weights[pairs], weights[twins])
+    one, other = weights[pairs], weights[twins]
+    common = np.sign(one) * np.minimum(np.abs(one), np.abs(other))
+    result[pairs] = np.where(one * other > 0, common, 0.0)
     source = mirror.balance[pairs] if way == "left to right" else -mirror.balance[pairs]
     leads = (source >= ONE_SIDED) & (mirror.balance[pairs] * mirror.balance[twins] < 0)
     result[pairs[leads]] = result[twins[leads]] = weights[pairs[leads]]
@@ -58,7 +60,7 @@ def with_twins(
     -------
     tuple of Pin
         `after`, with twins moved or added.  Where both of two twins were moved, the side of the first pin
-        leads.  A pin on the middle stays on it, a locked twin where it is.
+        leads.  A pin on the middle goes to no side; a twin that is locked or hidden stays.
     """
     old = {pin.vertex: pin for pin in before}
     new = {pin.vertex: pin for pin in after}
@@ -67,14 +69,14 @@ def with_twins(
     for vertex in moved:
         pin, twin = new[vertex], int(mirror.vertices[vertex])
         if twin == vertex:
-            x = old[vertex].goal[0] if vertex in old else mirror.middle
+            x = old[vertex].goal[0] if vertex in old else float(positions[vertex][0])
             new[vertex] = replace(pin, goal=(x, *pin.goal[1:]))
         if twin in (-1, vertex) or (twin in moved and _side(mirror, positions[vertex]) != side):
             continue
         start = np.asarray(old[vertex].goal if vertex in old else positions[vertex], np.float64)
         shift = (np.asarray(pin.goal) - start) * (-1.0, 1.0, 1.0)
         other = old.get(twin)
-        if other is not None and other.locked:
+        if other is not None and (other.locked or other.hidden):
             continue
         rest = np.asarray(other.goal if other else positions[twin], np.float64)
         fresh = _reflected(mirror, pin) if other is None else replace(other, axes=_turned(pin.axes))

@@ -61,7 +61,8 @@ class PinProblem:
         """(r, k + c) pin rows of all shapes and combinations."""
         self.curved = bool(self.rows[:, rig.shape_count :].any())
         """Whether combinations move a pin."""
-        self.follows_start = self.curved or bool(control.held.any())
+        local = radius > 0 and bool(len(rig.combinations))  # what combinations do depends on the pose
+        self.follows_start = self.curved or local or bool(control.held.any())
         """Whether it is another problem when the drag begins at other weights."""
         self._rig, self._control, self._start = rig, control, start
         self._locality = None

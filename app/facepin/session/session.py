@@ -143,7 +143,7 @@ class Session:
     @property
     def undo_label(self) -> str | None:
         """What undo would take back, or None."""
-        return self._history.undo_label
+        return self._preview_label if self._preview is not None else self._history.undo_label
 
     @property
     def redo_label(self) -> str | None:
@@ -166,7 +166,8 @@ class Session:
         A solver that fails leaves the last good poses in place and says so in `message`.  So do new weights
         for locked shapes: these stay as they are, and where nothing else is asked for, so does everything.
         """
-        before = self._begin()
+        self.message = ""
+        before = self._history.current
         try:
             work = replace(before, panes=self._edited(before, edit))
         except FacepinError as error:
@@ -180,7 +181,8 @@ class Session:
         If the last step was a drag, it is solved again from where it began: the difference is seen at once.
         What is there already is no step.
         """
-        before = self._begin()
+        self.message = ""
+        before = self._history.current
         if choice == before.panes[at].choice:
             self._preview = None
             return
@@ -216,6 +218,8 @@ class Session:
     def keep_pane(self, at: int) -> None:
         """Go on with one pane's pose alone."""
         before = self._begin()
+        if len(before.panes) == 1:
+            return
         self._show("Keep one pane", replace(before, panes=(before.panes[at],)), final=True)
         self._active = 0
 
@@ -303,12 +307,17 @@ class Session:
         return self._history.go_to(step)
 
     def _begin(self) -> Work:
-        """Return the work that an edit begins with; what was said of the last edit is over."""
+        """Return the work that a step begins with: with the gesture in progress, which is a step of its own.
+
+        What was said of the last step is over.
+        """
+        self.settle()
         self.message = ""
         return self._history.current
 
     def _show(self, label: str, work: Work, *, final: bool) -> None:
-        self._preview, self._preview_label = None if final else work, label
+        shown = None if final or work is self._history.current else work
+        self._preview, self._preview_label = shown, label
         if final and work is not self._history.current:
             self._history.commit(label, work)
 

@@ -12,6 +12,7 @@ from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.normals import NormalField
 from facepin.core.rig import Rig
 from facepin.files import open_rig
+from facepin.gpu import scene
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
 from facepin.gpu.scene import PaneMesh, Scene
@@ -143,6 +144,26 @@ def test_every_pane_has_its_own_still_parts(gl: moderngl.Context, ada: Rig) -> N
         assert left.motion.still
         assert right.motion.still
         assert left.motion.still != right.motion.still
+
+
+def test_batches_make_the_same_picture(
+    gl: moderngl.Context, ada: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sight = VIEW, frame_points(ada.neutral, SIZE[0] / SIZE[1])
+    pictures = []
+    for batch in (10**9, 300):
+        monkeypatch.setattr(scene, "BATCH", batch)
+        with dragging(gl, ada) as drag:
+            for weight in (0.0, 0.3, 0.6):
+                drag.pose(drag.meshes[0], jawOpen=weight)
+                pictures.append(drag.draw(sight))
+            assert drag.meshes[0].motion.still
+            (run, *_) = drag.meshes[0].motion.moving
+            assert [at for batch in run.batches(300) for at in batch] == [
+                *range(run.first, run.first + run.count)
+            ]
+    for one, other in zip(pictures[:3], pictures[3:], strict=True):
+        np.testing.assert_array_equal(one, other)
 
 
 def test_a_pane_where_nearly_all_moves_leaves_nothing_behind(gl: moderngl.Context, ada: Rig) -> None:

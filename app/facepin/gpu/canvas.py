@@ -50,6 +50,14 @@ class Canvas:
         return self._made.framebuffer
 
     @property
+    def alternate(self) -> moderngl.Framebuffer:
+        """As `framebuffer`, the same picture and depth: drawing into one ends what goes into the other.
+
+        A processor then begins to fill triangles while it still takes in the next ones.
+        """
+        return self._made.alternate
+
+    @property
     def overlay(self) -> moderngl.Framebuffer:
         """The same picture without its depth: to draw over the face while looking at `depth`."""
         return self._made.overlay
@@ -98,8 +106,8 @@ class Canvas:
         depth = self.ctx.depth_texture(size, samples=self.samples)
         if not self.samples:
             depth.compare_func = ""  # read as a number, not compared
-        framebuffer, overlay = self.ctx.framebuffer([colour], depth), self.ctx.framebuffer([colour])
-        self._buffers = _Buffers(framebuffer, overlay, depth)
+        framebuffer, alternate = (self.ctx.framebuffer([colour], depth) for _ in range(2))
+        self._buffers = _Buffers(framebuffer, alternate, self.ctx.framebuffer([colour]), depth)
 
     def twin(self) -> "Canvas":
         """Return a canvas without a size that can be copied to this one as fast as can be."""
@@ -150,6 +158,7 @@ class Canvas:
         if self._buffers is not None:
             leave_framebuffers(self.ctx)
             self._buffers.overlay.release()
+            self._buffers.alternate.release()
             release_framebuffer(self._buffers.framebuffer)
         if self._means is not None:
             release_framebuffer(self._means)
@@ -200,6 +209,7 @@ class _Buffers:
     """What a canvas is made of at one size."""
 
     framebuffer: moderngl.Framebuffer
+    alternate: moderngl.Framebuffer
     overlay: moderngl.Framebuffer
     depth: moderngl.Texture
 

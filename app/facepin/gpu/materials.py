@@ -1,6 +1,7 @@
 """What the parts of a face look like: as the file says, otherwise by their names, otherwise clay."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -80,6 +81,12 @@ class Run:
     texture: Texture | None = None
     cutout: float | None = None
     """Alpha of the texture below which there is nothing."""
+
+    def batches(self, most: int) -> Iterator[range]:
+        """Cut the corners of the run into ranges of at most so many, a multiple of 3."""
+        end = self.first + self.count
+        for first in range(self.first, end, most):
+            yield range(first, min(first + most, end))
 
     @property
     def sides(self) -> tuple["Run", ...]:

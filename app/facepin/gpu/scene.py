@@ -1,6 +1,7 @@
 """A rig on the graphics card, and the panes that show it in different poses."""
 
 from functools import cached_property
+from itertools import cycle
 from typing import Literal
 
 import moderngl
@@ -21,6 +22,9 @@ from facepin.gpu.openness import Openness
 from facepin.gpu.shaders import ProgramName, Shaders
 
 Part = Literal["all", "moving", "still"]
+
+BATCH = 3 * 12_000
+"""Corners of what moves that a processor takes in before it begins to fill their triangles."""
 
 
 class Scene:
@@ -219,6 +223,7 @@ class PaneMesh:
         if part != "all" and self.motion.still and self._sorted is not None:
             runs = self.motion.moving if part == "moving" else self.motion.still
             _, arrays = self._sorted
+        targets = cycle((canvas.alternate, canvas.framebuffer))
         for run in runs:
             if shading == "normals" and run.cutout is not None:
                 continue
@@ -229,7 +234,10 @@ class PaneMesh:
                 if name == "fast":
                     shaders.program(name)["facing"] = 1.0 if piece.hidden == "back" else -1.0
                 cull_hidden(ctx, piece)
-                array.render(moderngl.TRIANGLES, vertices=run.count, first=run.first)
+                for batch in run.batches(BATCH if part == "moving" else run.count):
+                    if batch.start > run.first:
+                        framing.use(next(targets))
+                    array.render(moderngl.TRIANGLES, vertices=len(batch), first=batch.start)
 
     def release(self) -> None:
         """Give the graphics memory back."""

@@ -139,3 +139,23 @@ def test_the_mouse_on_a_pin_draws_no_face_again(monkeypatch: pytest.MonkeyPatch)
         app.step(PointerMoved(5, 395), frames=4)
         assert faces
         np.testing.assert_array_equal(seen(), plain_pin)
+
+
+def test_a_drag_after_one_that_was_given_up_begins_anew_to_tell_what_moves() -> None:
+    with running(size=(500, 400)) as app:
+        assert app.desk.stage is not None
+        motion = app.desk.stage.mesh(0).motion
+        moving: list[int] = []
+        for shape, way in (("browInnerUp", -10), ("jawOpen", 30), ("browInnerUp", -10)):
+            column = app.session.rig.shape_names.index(shape)
+            moves = app.session.rig.rows_at(range(app.session.rig.vertex_count))[:, column].reshape(-1, 3)
+            x, y = app.pixel_of(int(np.argmax(np.abs(moves[:, 1]) * (app.session.rig.neutral[:, 2] > 0.3))))
+            app.press(x, y)
+            for step in range(6):
+                app.move(x, y + way * (step + 1) / 6)
+            moving.append(sum(run.count for run in motion.moving))
+            assert motion.still
+            app.key("escape")
+            app.release(x, y)
+            app.step(PointerMoved(5, 395), frames=4)
+        assert moving[2] == moving[0] != moving[1]

@@ -308,6 +308,10 @@ class Stage:
             mesh = self._shown[at].mesh
             draw_pane(canvas, frame(camera, viewport), mesh, over, fine=fine, part=part, scale=scale)
 
+    def rest(self) -> None:
+        """Do not draw the faces again as they rest: with the next drag other triangles may move."""
+        self._still.forget()
+
     def draw_pins(
         self, canvas: Canvas, sights: Sequence[tuple[Viewport, Camera]], tool: DragTool, scale: float
     ) -> None:

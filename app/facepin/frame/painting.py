@@ -63,6 +63,7 @@ class Painting:
         sights = list(zip(viewports, desk.cameras, strict=True))
         if self._rest is not None and self._resting == faces:
             self._rest.copy_to(canvas)
+            stage.rest()
         else:
             panes, scale = desk.view.panes, desk.pixel_scale
             stage.draw(canvas, sights, panes, scale, fine=quality.fine, beside=beside)

@@ -7,7 +7,7 @@ import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from threading import Event
+from threading import Event, Timer
 
 import numpy as np
 import pytest
@@ -338,6 +338,28 @@ def test_a_fault_of_the_writer_is_told_and_does_not_end_the_thread() -> None:
     assert not saver.complaint
     assert written == [2]
     assert saver.close()
+
+
+def test_what_is_newest_is_written_at_the_end_though_one_before_it_failed() -> None:
+    begun, go_on = Event(), Event()
+    written: list[str] = []
+
+    def write(value: str) -> None:
+        if value == "first":
+            begun.set()
+            go_on.wait(5)
+            raise OSError("the disk was busy")
+        time.sleep(0.2)  # so that whoever waits looks in between
+        written.append(value)
+
+    saver: Autosave[str] = Autosave(write, retry=60)
+    saver.put("first")
+    assert begun.wait(5)
+    saver.put("second")
+    Timer(0.1, go_on.set).start()  # when the end is waited for already
+    assert saver.close()
+    assert written == ["second"]
+    assert saver.complaint == ""
 
 
 def test_a_draft_that_another_window_has_is_not_written(tmp_path: Path) -> None:

@@ -31,6 +31,8 @@ class Autosave(Generic[T]):
         self._changed = Condition()
         self._waiting: list[T] = []
         """The newest value, until it is written."""
+        self._refused: list[T] = []
+        """The value that the complaint is about."""
         self._tries = 0
         self._hurried = self._ended = False
         self._thread: Thread | None = None
@@ -53,8 +55,8 @@ class Autosave(Generic[T]):
             self._hurried = True
             self._changed.notify_all()
             while self._waiting:
-                failed = self.complaint and self._tries > tried
-                if failed or not self._changed.wait(max(until - monotonic(), 0.0)):
+                refused = self._refused and self._refused[0] is self._waiting[0]
+                if (refused and self._tries > tried) or not self._changed.wait(max(until - monotonic(), 0.0)):
                     self.complaint = self.complaint or "writing takes too long"
                     return False
         return True
@@ -79,6 +81,7 @@ class Autosave(Generic[T]):
             complaint = self._tried(value)
             with self._changed:
                 self.complaint = complaint
+                self._refused = [value] if complaint else []
                 self._tries += 1
                 if not complaint and self._waiting[0] is value:
                     self._waiting = []

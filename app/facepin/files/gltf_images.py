@@ -22,7 +22,7 @@ LARGEST = 8192
 """Width and height up to which pictures are read."""
 KEPT = 2048
 """Width and height up to which they stay as they are; larger ones are halved until they fit."""
-MOST_PIXELS = LARGEST**2
+MOST_PIXELS = 2 * LARGEST**2
 """Of all pictures of a file together: a few bytes can unfold to very many."""
 MOST_BYTES = 256 << 20
 """Size of a picture's file."""

@@ -54,6 +54,29 @@ def test_without_room_for_samples_the_face_is_there_all_the_same(monkeypatch: py
         assert app.screenshot().std() > 10
 
 
+def test_without_room_to_keep_faces_they_are_drawn_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    plain = Canvas.twin
+
+    def full(canvas: Canvas) -> Canvas:
+        made = plain(canvas)
+        if canvas.samples:
+            monkeypatch.setattr(made, "resize", fail)
+        return made
+
+    def fail(*_: object) -> None:
+        raise moderngl.Error("out of memory")
+
+    monkeypatch.setattr(Canvas, "twin", full)
+    with running(size=(500, 400)) as app:
+        x, y = app.pixel_of(2000)
+        app.press(x, y)
+        app.release(x, y)
+        app.step(PointerMoved(5, 395), frames=4)
+        app.step(PointerMoved(x, y), frames=4)
+        assert app.desk.tool.hovered is not None
+        assert app.screenshot().std() > 10
+
+
 def test_a_frame_in_which_the_face_is_as_before_costs_no_mean(monkeypatch: pytest.MonkeyPatch) -> None:
     copies: list[object] = []
     plain = Canvas.flat

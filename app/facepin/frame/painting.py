@@ -77,7 +77,11 @@ class Painting:
         if self._rest is None or self._rest.samples != canvas.samples:
             self._let_go()
             self._rest = canvas.twin()
-        self._rest.resize(*canvas.size)
+        try:
+            self._rest.resize(*canvas.size)
+        except moderngl.Error:  # no room: then they are drawn anew each time
+            self._let_go()
+            return
         canvas.copy_to(self._rest)
         self._resting = faces
 

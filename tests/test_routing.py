@@ -142,12 +142,30 @@ def test_escape_ends_one_thing_at_a_time(over: str) -> None:
 
 def test_function_keys_are_heard_while_something_is_typed() -> None:
     with running() as app:
-        app.ask(Command.SAVE_POSE)  # asks for a path, in a line to type in
-        app.step(PointerMoved(5, 5), frames=4)
+        app.press(1012, 307)  # the search for a shape
+        app.release(1012, 307)
+        app.step(PointerMoved(5, 5), frames=2)
         assert imgui.get_io().want_text_input
         app.step(KeyPressed("w"), KeyPressed("f4"), frames=2)
         assert app.desk.view.chart
         assert not app.desk.view.panes[0].wireframe
+
+
+def test_nothing_is_heard_behind_a_question() -> None:
+    with running() as app:
+        app.press(*skin(app))
+        app.release(*skin(app))
+        app.ask(Command.SAVE_POSE)
+        app.step(PointerMoved(5, 5), frames=4)
+        app.press(*skin(app))  # beside the line to type in: it is left
+        app.release(*skin(app))
+        app.step(PointerMoved(5, 5), frames=2)
+        assert len(app.session.pose.pins) == 1
+        app.step(KeyPressed("delete"), KeyPressed("f4"), KeyPressed("p", Modifiers(control=True)), frames=3)
+        assert len(app.session.pose.pins) == 1
+        assert app.desk.dialog is not None
+        assert not app.desk.view.chart
+        assert app.desk.view.palette is None
 
 
 def test_delete_says_that_nothing_is_selected() -> None:

@@ -87,6 +87,8 @@ class Router:
                 asked.append(OpenPath(first))
             case KeyPressed():
                 command = command_for(event, desk.view.habit)
+                if desk.dialog is not None and desk.dialog.can_ask_again:
+                    return None  # it is modal
                 if desk.view.palette is not None and command is not Command.PALETTE:
                     return None
                 silent = command is Command.PALETTE or event.key in FUNCTION_KEYS

@@ -35,7 +35,7 @@ NEAR = 0.006
 """How far light is spread in a round of smoothing, in heights of the face."""
 LID = 0.01
 """How far lids move at least, in heights of the face."""
-CLOSING = ("eyeblink", "eyesclosed", "blink")
+CLOSING = ("blink", "eyesclosed")
 """Of those that show the lids, of which the neutral hides most in a fold."""
 EYES_OPEN = 0.6
 """Least openness of eyeballs: what the lids cover in the neutral comes out when the gaze turns."""

@@ -13,9 +13,9 @@ from facepin.core.quality import LEVELS
 from facepin.core.rig_builder import build_rig
 from facepin.core.shading import MODES
 from facepin.figures import bench
-from facepin.figures.animator import FRAMES, Protocol
 from facepin.figures.bench import as_json, as_tables, machine, measure
 from facepin.figures.frame_times import frame_times, frames_as_table
+from facepin.figures.study.animator import FRAMES, Protocol
 from facepin.gpu.picture import open_context
 from facepin.session.solving import PinSolver, choose
 from facepin.solvers import SOLVERS

@@ -13,7 +13,7 @@ import pytest
 from facepin.__main__ import main
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
-from facepin.figures.animator import (
+from facepin.figures.study.animator import (
     FRAMES,
     PULL,
     SPACING,
@@ -24,8 +24,8 @@ from facepin.figures.animator import (
     make_task,
     most_moved,
 )
-from facepin.figures.processes import spread
-from facepin.figures.study import study
+from facepin.figures.study.processes import spread
+from facepin.figures.study.study import study
 from facepin.session.solving import choose
 from facepin.solvers import SOLVERS
 from small_rigs import sheet
@@ -155,7 +155,7 @@ def test_rows_are_medians_over_the_trials(rig: Rig) -> None:
     outcomes = [animate(rig, make_task(rig, PROTOCOL, t), choice, "space") for t in range(4)]
     assert found.rows[0].outcome.travel == np.median([outcome.travel for outcome in outcomes])
     assert found.rows[0].outcome.active == np.median([outcome.active for outcome in outcomes])
-    assert done == [1, 2, 3, 4]
+    assert done == [0.25, 0.5, 0.75, 1.0]
 
 
 def test_shapes_can_be_left_out_of_the_poses(rig: Rig) -> None:

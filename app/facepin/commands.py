@@ -239,15 +239,15 @@ def _compare(options: Namespace) -> None:
 
 
 def _study_options(parser: ArgumentParser) -> None:
-    from facepin.figures import study
+    from facepin.figures.study import command
 
-    study.add_options(parser)
+    command.add_options(parser)
 
 
 def _study(options: Namespace) -> None:
-    from facepin.figures import study
+    from facepin.figures.study import command
 
-    study.run(options)
+    command.run(options)
 
 
 def _bench_options(parser: ArgumentParser) -> None:
@@ -318,7 +318,7 @@ COMMANDS: dict[str, Command] = {
     "turntable": Command("draw a pose from all round, animated", _turntable_options, _turntable),
     "movie": Command("draw pins being dragged and the face following, animated", _movie_options, _movie),
     "compare": Command("put solvers side by side: pictures, charts, poses", _compare_options, _compare),
-    "study": Command("let a simulated animator pose a face with every solver", _study_options, _study),
+    "study": Command("let a simulated animator pose or drag faces with every solver", _study_options, _study),
     "bench": Command("measure what a press and a drag frame cost", _bench_options, _bench),
     "figures": Command("remake the paper's figures and tables on a page", _figures_options, _figures),
     "export": Command("write the posed face as a model", _export_options, _export),

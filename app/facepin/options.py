@@ -73,13 +73,18 @@ def first_pose(rig: Rig, pose: Path | None, pins: Path | None) -> Pose:
 
 def add_rig(parser: ArgumentParser) -> None:
     """Add RIG and --neutral."""
-    parser.add_argument(
-        "rig",
-        type=rig_path,
-        metavar="RIG",
-        help=f"a .glb, .gltf, .vrm, .npz or folder of .obj files; or {', '.join(builtin_faces())}",
-    )
+    parser.add_argument("rig", type=rig_path, metavar="RIG", help=_rig_help())
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
+
+
+def add_rigs(parser: ArgumentParser) -> None:
+    """Add one RIG or several, and --neutral."""
+    parser.add_argument("rigs", type=rig_path, nargs="+", metavar="RIG", help=_rig_help())
+    parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in folders of .obj files")
+
+
+def _rig_help() -> str:
+    return f"a .glb, .gltf, .vrm, .npz or folder of .obj files; or {', '.join(builtin_faces())}"
 
 
 def rig_path(text: str) -> Path:

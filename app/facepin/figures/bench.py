@@ -23,10 +23,10 @@ from facepin.core.picking import pick
 from facepin.core.pose import Pin, as_vector
 from facepin.core.rig import Rig
 from facepin.core.topology import edge_count
-from facepin.figures.animator import PULL, Protocol, make_task
 from facepin.figures.compare import context_or_word, progress_line
 from facepin.figures.frame_times import FrameTime, frame_times, frames_as_json, frames_as_table
 from facepin.figures.stand_ins import TABLE_1, stand_in, stand_in_name
+from facepin.figures.study.animator import PULL, Protocol, make_task
 from facepin.files import open_rig
 from facepin.options import rig_path
 from facepin.resources import BUILTIN, resource

@@ -46,11 +46,13 @@ class Painter:
         pins: tuple[Pin, ...] = (),
         moved: Floats | None = None,
         *,
+        heat: Floats | None = None,
         transparent: bool = False,
     ) -> Image:
         """Return a picture of a posed face, (h, w, 4) uint8, with a marker per pin and a line to its goal.
 
-        With `moved` (n,), lengths in the rig's unit, colours show how far each vertex moved (`heat_legend`).
+        With `moved` (n,), lengths in the rig's unit, colours show how far each vertex moved (`heat_legend`);
+        with `heat` (n,) anything else, in shares of the top of the scale.
         Pictures may be `transparent` where the face is not.
         """
         from facepin.gpu.markers import Markers, MarkerState
@@ -63,9 +65,8 @@ class Painter:
             np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
             np.full(len(pins), MarkerState.SELECTED, np.uint8),
         )
-        heat = None
         if moved is not None:
-            heat = (moved / heat_scale(self._rig.height).top).astype(np.float32)
+            heat = moved / heat_scale(self._rig.height).top
         scale = SUPERSAMPLING * max(self.size[1] / 600, 0.5)
         return draw_picture(
             self._mesh,
@@ -74,7 +75,7 @@ class Painter:
             transparent=transparent,
             samples=0,
             supersampling=SUPERSAMPLING,
-            overlays=Overlays(heat=heat),
+            overlays=Overlays(heat=None if heat is None else heat.astype(np.float32)),
             overlay=lambda canvas, framing, _: self._markers.draw_framed(
                 canvas, framing, markers, scale=scale
             ),

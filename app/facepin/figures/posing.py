@@ -9,7 +9,7 @@ from facepin.core.arrays import Floats, Points
 from facepin.core.picking import first_hit
 from facepin.core.pose import Freedom, Pin
 from facepin.core.rig import Rig
-from facepin.figures.animator import SPACING, most_moved
+from facepin.figures.study.animator import SPACING, most_moved
 from facepin.files.shape_spelling import match_shapes
 
 DELIGHT = {"jawOpen": 0.5, "mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "browInnerUp": 0.9}

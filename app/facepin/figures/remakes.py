@@ -11,7 +11,6 @@ from facepin.core.arrays import Floats, frozen
 from facepin.core.measures import moves
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
-from facepin.figures.animator import Protocol, drawable, make_task
 from facepin.figures.chart_style import number, write_chart
 from facepin.figures.charts import gamma_chart
 from facepin.figures.compare import (
@@ -30,6 +29,7 @@ from facepin.figures.comparison import Comparison, compare
 from facepin.figures.page import Remake
 from facepin.figures.pictures import Painter, heat_legend
 from facepin.figures.posing import DELIGHT, dragged, handles, most_moved_in_sight, named_weights
+from facepin.figures.study.animator import Protocol, drawable, make_task
 from facepin.session.solving import choose
 from facepin.sheets import Pane, write_sheet
 from facepin.solvers.colours import INKS, REFERENCE

@@ -42,6 +42,17 @@ def read_pose(path: Path, rig: Rig) -> tuple[Pose, str]:
     return _on_rig(rig, *_reader_for(path)(path, rig))
 
 
+def read_weights(path: Path, rig: Rig) -> dict[str, float]:
+    """Read the weights of a pose by the names that its file has for shapes, whether `rig` knows them or not.
+
+    Raises
+    ------
+    FacepinError
+        As `read_pose`.
+    """
+    return _reader_for(path)(path, rig)[0]
+
+
 def pose_of_document(document: JsonObject, rig: Rig) -> tuple[Pose, str]:
     """Return the pose in a document on `rig`, as `read_pose` does.
 

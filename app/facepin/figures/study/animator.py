@@ -97,17 +97,24 @@ def drawable(rig: Rig, protocol: Protocol) -> list[int]:
     return found
 
 
-def make_task(rig: Rig, protocol: Protocol, trial: int) -> Task:
-    """Draw the reference pose, the pins and the hand's noise of one trial."""
+def make_task(rig: Rig, protocol: Protocol, trial: int, reference: Floats | None = None) -> Task:
+    """Draw the reference pose, where none is given, the pins and the hand's noise of one trial."""
     random = np.random.default_rng([protocol.seed, trial])
-    chosen = random.choice(drawable(rig, protocol), protocol.shapes, replace=False)
-    low, high = rig.limits[chosen].T
-    reference = np.zeros(rig.shape_count)
-    reference[chosen] = random.uniform(WEAKEST, STRONGEST, len(chosen)) * np.where(high > 0, high, low)
+    if reference is None:
+        reference = _drawn(rig, protocol, random)
     wanted = rig.evaluate(reference)
     vertices = most_moved(rig, wanted, protocol.pins)
     tremor = random.normal(0.0, protocol.noise / 100 * rig.height, (len(vertices), FRAMES, 2))
     return Task(reference, wanted, vertices, tremor)
+
+
+def _drawn(rig: Rig, protocol: Protocol, random: np.random.Generator) -> Floats:
+    """Return the weights (k,) of a few shapes, the others 0."""
+    chosen = random.choice(drawable(rig, protocol), protocol.shapes, replace=False)
+    low, high = rig.limits[chosen].T
+    reference = np.zeros(rig.shape_count)
+    reference[chosen] = random.uniform(WEAKEST, STRONGEST, len(chosen)) * np.where(high > 0, high, low)
+    return reference
 
 
 def most_moved(rig: Rig, wanted: Points, count: int) -> tuple[int, ...]:

@@ -1,0 +1,132 @@
+"""What both studies tell alike: figures in a table, files of rows, and a chart with a dot for each figure."""
+
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from io import StringIO
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from facepin.figures.chart_style import DIM, chart_style, number
+from facepin.figures.study.intervals import Interval
+from facepin.files.atomic import atomic_write
+from facepin.session.solving import SolverChoice
+from facepin.solvers.colours import INKS
+from facepin.solvers.settings import plain_settings
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from rich.table import Table
+
+
+def plain_choices(choices: Sequence[SolverChoice]) -> dict[str, Any]:
+    """Return the settings of solvers by their keys."""
+    return {
+        choice.kind.key: {**plain_settings(choice.settings), "limits": choice.keep_limits}
+        for choice in choices
+    }
+
+
+def plain_figures(figures: Mapping[str, float], intervals: Mapping[str, Interval]) -> dict[str, Any]:
+    """Return figures as JSON has them, null for what is not there; each followed by its interval, if any."""
+    told: dict[str, Any] = {}
+    for name, figure in figures.items():
+        told[name] = figure if isfinite(figure) else None
+        if name in intervals:
+            told[f"{name}_interval"] = [end if isfinite(end) else None for end in intervals[name]]
+    return told
+
+
+def plain_table(title: str, left: Sequence[str], right: Sequence[str]) -> "Table":
+    """Return an empty table for the terminal: columns of words, then columns of figures."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, show_edge=False, padding=0)
+    for heading in left:
+        table.add_column(heading, no_wrap=True)
+    for heading in right:
+        table.add_column(heading, justify="right", no_wrap=True)
+    return table
+
+
+def brief(figure: float, interval: Interval | None = None) -> str:
+    """Return a figure in at most six characters, and below it its interval."""
+    if not isfinite(figure):
+        return "-"
+    text = number(figure).replace("e+0", "e").replace("e+", "e")
+    return text if interval is None else f"{text}\n[dim]{brief(interval[0])}–{brief(interval[1])}[/dim]"
+
+
+def write_rows(folder: Path, name: str, told: Mapping[str, Any]) -> list[Path]:
+    """Write what a study found as name.json, and its rows as name.csv; return their paths.
+
+    Raises
+    ------
+    FacepinError
+        If they cannot be written.
+    """
+    paths = [folder / f"{name}.json", folder / f"{name}.csv"]
+    text = StringIO(newline="")
+    table = csv.DictWriter(text, list(told["rows"][0]))
+    table.writeheader()
+    table.writerows(told["rows"])
+    atomic_write(paths[0], (json.dumps(told, indent=2, ensure_ascii=False) + "\n").encode())
+    atomic_write(paths[1], text.getvalue().encode())
+    return paths
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One measure of a chart."""
+
+    title: str
+    values: Sequence[float]
+    """One for each line of the chart; NaN leaves it empty."""
+    intervals: Sequence[Interval | None]
+
+
+def dot_chart(labels: Sequence[str], keys: Sequence[str], panels: Sequence[Panel], note: str) -> "Figure":
+    """Draw a line for each label, in the colour of its solver's key, and a panel for each measure.
+
+    Further left is better.
+    """
+    from matplotlib.figure import Figure
+
+    with chart_style():
+        figure = Figure((2.75 * len(panels), 0.24 * len(labels) + 1.3), layout="constrained")
+        axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
+        for axis, panel in zip(axes, panels, strict=True):
+            _dots(axis, keys, panel)
+        axes[0].set_yticks(range(len(labels)), labels, fontsize=8)
+        axes[0].invert_yaxis()
+        figure.supxlabel(note, x=0.008, ha="left", fontsize=6.5, color=DIM)
+    return figure
+
+
+def _dots(axis: "Axes", keys: Sequence[str], panel: Panel) -> None:
+    """Draw a mark for each value."""
+    axis.set_title(panel.title)
+    values = [value for value in panel.values if isfinite(value)]
+    logarithmic = bool(values) and min(values) > 0 and max(values) > 30 * min(values)
+    if logarithmic:
+        axis.set_xscale("log")
+        axis.set_xlabel("logarithmic", fontsize=7.5)
+    for at, (key, value, interval) in enumerate(zip(keys, panel.values, panel.intervals, strict=True)):
+        if not isfinite(value):
+            continue
+        ink = INKS[key]
+        axis.plot(value, at, ink.marker, color=ink.colour, markersize=6, clip_on=False)
+        if interval is not None and all(map(isfinite, interval)):
+            axis.plot(interval, (at, at), "-", color=ink.colour, linewidth=1.2, alpha=0.6)
+        axis.annotate(
+            number(value), (value, at), (7, 0), textcoords="offset points", va="center", fontsize=7.5
+        )
+    if not logarithmic:
+        axis.set_xlim(left=0)
+    axis.margins(x=0.22)
+    axis.grid(axis="y")
+    axis.tick_params(axis="y", length=0)

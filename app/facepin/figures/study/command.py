@@ -89,7 +89,7 @@ def add_options(parser: ArgumentParser) -> None:
         type=int,
         default=1,
         metavar="S",
-        help="other numbers draw other poses and points (default: 1)",
+        help="other numbers draw others (default: %(default)s)",
     )
     parser.add_argument(
         "--intervals", action="store_true", help="say how sure the figures are: their 95 %% intervals"
@@ -102,7 +102,7 @@ def add_options(parser: ArgumentParser) -> None:
         "--out",
         type=Path,
         metavar="FOLDER",
-        help="write JSON, CSV and charts; of --drags, maps of the face too",
+        help="write JSON, CSV and a chart there; of --drags, maps of the face too",
     )
 
 
@@ -125,17 +125,13 @@ def _check(options: Namespace) -> None:
             raise FacepinError(f"--{name}: found {value}, allowed: {low} or more")
     for size in options.size or ():
         if not 0 < size <= 100:
-            raise FacepinError(
-                f"--size: found {size:g}, allowed: more than 0, up to 100 % of the face's height"
-            )
+            raise FacepinError(f"--size: found {size:g}, allowed: above 0, up to 100 % of face height")
     for name in ANIMATOR if options.drags else DRAGS:
         if getattr(options, name) is not None:
             where = "not used with" if options.drags else "used only with"
             raise FacepinError(f"--{name} is {where} --drags")
     if options.reference is not None and (options.shapes is not None or options.without is not None):
-        raise FacepinError(
-            "--shapes and --without are for poses drawn by chance, not for those of --reference"
-        )
+        raise FacepinError("--shapes and --without are for poses drawn by chance, not with --reference")
 
 
 def _or_else(value: Any, usual: Any) -> Any:
@@ -144,7 +140,7 @@ def _or_else(value: Any, usual: Any) -> Any:
 
 def _freedoms(options: Namespace, usual: str) -> tuple[Freedom, ...]:
     chosen = options.freedom or usual
-    return FREEDOMS if chosen == "both" else (chosen,)
+    return tuple(freedom for freedom in FREEDOMS if chosen in (freedom, "both"))
 
 
 def _run_animator(options: Namespace) -> None:
@@ -212,7 +208,10 @@ def _print(options: Namespace, told: dict[str, Any], table: Callable[[], Any]) -
     else:
         from rich.console import Console
 
-        Console().print(table())
+        console, made = Console(), table()
+        if not console.is_terminal:  # in a file there is room for all of it
+            console.width = max(console.width, console.measure(made).maximum)
+        console.print(made)
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,6 @@ from facepin.figures.study.drags import PIXEL
 from facepin.figures.study.maps import write_maps
 from facepin.figures.study.telling import (
     Panel,
-    brief,
     dot_chart,
     plain_choices,
     plain_figures,
@@ -24,22 +24,22 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.table import Table
 
-HEADINGS = {
-    "reachable": "in\nreach",
-    "lag_median_percent": "\nlag",
-    "lag_p90_percent": "lag\np90",
-    "dead_percent": "\ndead",
-    "far_share_percent": "\nfar",
-    "active_p90": "acti\nve",
-    "weight_per_pixel_p90": "per\npixel",
-    "overdrag_change_median": "over\ndrag",
-    "overdrag_change_p90": "over\np90",
-    "press_jump_percent": "\npress",
-    "removal_jump_percent": "remo\nval",
-    "slip_median_percent": "\nslip",
-    "sequence_lag_p90_percent": "held\nlag",
-    "milliseconds": "\nms",
+COLUMNS = {
+    "in\nreach": ("reachable",),
+    "lag\n": ("lag_median_percent", "lag_p90_percent"),
+    "\ndead": ("dead_percent",),
+    "\nfar": ("far_share_percent",),
+    "acti\nve": ("active_p90",),
+    "per\npx": ("weight_per_pixel_p90",),
+    "over\ndrag": ("overdrag_change_p90",),
+    "\npress": ("press_jump_percent",),
+    "remo\nval": ("removal_jump_percent",),
+    "\nslip": ("slip_median_percent",),
+    "held\nlag": ("sequence_lag_p90_percent",),
+    "\nms": ("milliseconds",),
 }
+"""Of the table: headings, and figures that share a column.  The overdrag's median is in the JSON only."""
+WORDS = "lag (median/p90), slip and held lag in % of the drag; press and removal in % of face height"
 CHARTED = {
     "lag_median_percent": "lag, % of the drag",
     "lag_p90_percent": "lag of nine in ten, %",
@@ -85,27 +85,38 @@ def origin(studies: Sequence[DragStudy]) -> str:
 
 
 def as_table(studies: Sequence[DragStudy]) -> "Table":
-    """Return what the terminal shows; what is the same in all rows is said above it alone."""
-    rows = [(study, row) for study in studies for row in study.rows]
-    words = {
-        "rig": [study.rig.name for study, _ in rows],
-        "solver": [row.choice.kind.key for _, row in rows],
-        "freedom": [row.freedom for _, row in rows],
-        "%": [f"{row.size:g}" for _, row in rows],
-    }
-    shown = [name for name, column in words.items() if name == "solver" or len(set(column)) > 1]
-    title = f"{origin(studies)}\nlag, far, slip in % of the drag; press and removal in % of face height"
-    table = plain_table(title, shown, list(HEADINGS.values()))
-    for at, (_, row) in enumerate(rows):
-        figures = [_figure(row, name) for name in HEADINGS]
-        table.add_row(*(words[name][at] for name in shown), *figures)
+    """Return what the terminal shows: rows of one rig, size and freedom under a line that says so."""
+    from rich.markup import escape
+
+    table = plain_table(f"{origin(studies)}\n{WORDS}", ["solver"], list(COLUMNS))
+    for study in studies:
+        for freedom, size in dict.fromkeys((row.freedom, row.size) for row in study.rows):
+            rig = [study.rig.name] if len(studies) > 1 else []
+            table.add_row("[bold]" + escape(", ".join([*rig, f"{size:g} %, {freedom}"])) + "[/bold]")
+            for row in study.rows:
+                if (row.freedom, row.size) == (freedom, size):
+                    cells = [_cell(row, names) for names in COLUMNS.values()]
+                    table.add_row(row.choice.kind.key, *cells)
     return table
 
 
-def _figure(row: DragRow, name: str) -> str:
-    """Return a figure of a table, per cents without needless digits."""
-    figure, interval = getattr(row.figures, name), row.intervals.get(name)
-    return brief(figure, interval)
+def _cell(row: DragRow, names: tuple[str, ...]) -> str:
+    """Return the figures of a column, and below them their intervals, if there are any."""
+    figures = "/".join(short(getattr(row.figures, name)) for name in names)
+    if not all(name in row.intervals for name in names):
+        return figures
+    ends = ["–".join(map(short, row.intervals[name])) for name in names]
+    return f"{figures}\n[dim]{'/'.join(ends)}[/dim]"
+
+
+def short(figure: float) -> str:
+    """Return a figure in two digits that matter: 99.6 as 100, 0.057 as .06."""
+    if not isfinite(figure):
+        return "-"
+    if abs(figure) >= 9.95:
+        return f"{figure:,.0f}"
+    text = f"{figure:.1f}" if abs(figure) >= 0.995 else f"{figure:.2f}".removeprefix("0")
+    return text.removesuffix(".0") if abs(figure) >= 0.995 else "0" if text == ".00" else text
 
 
 def write_drags(folder: Path, studies: Sequence[DragStudy]) -> list[Path]:

@@ -125,7 +125,8 @@ def drag_point(rig: Rig, method: Method, vertex: int, reach: Floats, sizes: Sequ
             )
         found[3, place] = np.maximum(found[3, place], turning * pixel)
     seconds = float(np.median(grip.seconds)) if grip.seconds else np.nan
-    return PointDrags(*found, seconds)
+    lag, far, active, per_pixel, overdrag = found
+    return PointDrags(lag, far, active, per_pixel, overdrag, seconds)
 
 
 def straight(size: float, pixel: float) -> Floats:
@@ -134,6 +135,6 @@ def straight(size: float, pixel: float) -> Floats:
 
 
 def circle(size: float, pixel: float) -> Floats:
-    """Return places (m, 2) once round the press, from the right and back, in even steps of a pixel at most."""
+    """Return places (m, 2) once round the press, from its right, in even steps of a pixel at most."""
     angles = np.linspace(0.0, 2 * pi, max(ceil(2 * pi * size / pixel), 8) + 1)
     return size * np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -30,7 +30,7 @@ class Case:
     """What came of one sequence, in per cent; empty where there are too few points."""
 
     press_jump: Floats
-    """(≤ 1,) largest move of a vertex when a pin is placed and the mouse has not moved, of the face height."""
+    """(≤ 1,) largest move of a vertex as a pin is placed and the mouse has not moved, of the face height."""
     removal_jump: Floats
     """(≤ 3,) largest move of a vertex away from a pin nudged by a pixel, after another one was removed."""
     slip: Floats
@@ -45,6 +45,7 @@ class Hand:
     def __init__(self, rig: Rig, method: Method) -> None:
         choice, self._freedom = method
         self._rig = rig
+        self._rows: dict[int, Floats] = {}
         self.session = Session(rig, [choice], Pose(np.zeros(rig.shape_count)))
 
     @property
@@ -54,8 +55,10 @@ class Hand:
 
     def place(self, vertex: int) -> Floats:
         """Return where a vertex is, (3,) float64."""
+        if vertex not in self._rows:
+            self._rows[vertex] = self._rig.rows_at([vertex])
         amounts = self._rig.amounts(self.session.pose.weights)
-        place: Floats = self._rig.rows_at([vertex]) @ amounts + self._rig.neutral[vertex]
+        place: Floats = self._rows[vertex] @ amounts + self._rig.neutral[vertex]
         return place
 
     def drag(self, vertex: int, move: Floats, *, final: bool = True) -> None:

@@ -12,6 +12,7 @@ from facepin.core.heat import heat_colours
 from facepin.core.rig import Rig
 from facepin.figures.pictures import Painter
 from facepin.figures.study.drag_study import DragRow, DragStudy
+from facepin.figures.study.intervals import median, p90
 from facepin.files.pose_library import free_key
 from facepin.sheets import Image, Legend, Pane, write_sheet
 from facepin.solvers.colours import INKS
@@ -20,12 +21,16 @@ if TYPE_CHECKING:
     import moderngl
 
 PANE = (380, 440)
+BEYOND = 1.2
+"""More than the top of the scale, as the skin shows it."""
 DISC = 5.0
 """Radius of a point in pixels."""
 OPEN = "#a9adb3"
 """Of a point that nothing can be said of."""
-REACH = 1.6
+REACH = 2.0
 """A point colours the skin around it as far as this many times the usual gap between points."""
+FAINT = 0.1
+"""Skin with less than this share of a point's colour fades out."""
 
 
 def write_maps(folder: Path, studies: Sequence[DragStudy], ctx: "moderngl.Context") -> list[Path]:
@@ -50,10 +55,10 @@ def write_maps(folder: Path, studies: Sequence[DragStudy], ctx: "moderngl.Contex
                 f"map-{study.rig.name}-{freedom}-{size:g}", (path.stem.lower() for path in written)
             )
             footer = (
-                f"{study.rig.name}: {len(study.vertices)} points dragged by {size:g} % of the face's height in 4 "
-                f"directions, {freedom} pins; rings: out of reach; white: more than the drag"
+                f"{study.rig.name}: {len(study.vertices)} points dragged by {size:g} % of face height in 4 "
+                f"directions, {freedom} pins; colours in % of the drag, white beyond; rings: out of reach"
             )
-            legend = Legend(heat_colours(), ("0", "50", "100 % of the drag"))
+            legend = Legend(heat_colours(), ("0 %", "50 %", "100 %"))
             written.append(write_sheet(folder / f"{name}.png", panes, footer, 4, legend))
         painter.release()
     return written
@@ -63,12 +68,14 @@ def _panes(study: DragStudy, row: DragRow, painter: Painter, blend: Floats) -> l
     title, colour = row.choice.kind.title, INKS[row.choice.kind.key].colour
     figures = row.figures
     lag = f"median {figures.lag_median_percent:.0f} %, p90 {figures.lag_p90_percent:.0f} %"
-    far = f"{figures.far_share_percent:.1f} % of drags move more than themselves"
+    usual, most = 100 * median(row.far.ravel()), 100 * p90(row.far.ravel())
+    far = f"median {usual:.0f} %, p90 {most:.0f} %"
+    felt = f"{figures.far_share_percent:.1f} % of drags move more than themselves"
     maps = {
         "lag, mean": (_mean(row.lag), lag),
         "lag, worst direction": (_worst(row.lag), f"{figures.dead_percent:.1f} % of drags are dead"),
         "far motion, mean": (_mean(row.far), far),
-        "far motion, worst direction": (_worst(row.far), far),
+        "far motion, worst direction": (_worst(row.far), felt),
     }
     return [
         Pane(draw_map(study, painter, values, blend), title, what, (words,), colour)
@@ -85,7 +92,9 @@ def draw_map(study: DragStudy, painter: Painter, values: Floats, blend: Floats) 
     from PIL import ImageDraw
 
     rig, known = study.rig, ~np.isnan(values)
-    skin = blend[:, known] @ values[known] / np.maximum(blend[:, known].sum(axis=1), 1.0)
+    # What is far beyond the scale must not outshine its neighbours.
+    seen = np.minimum(values[known], BEYOND)
+    skin = blend[:, known] @ seen / np.maximum(blend[:, known].sum(axis=1), FAINT)
     picture = painter.paint(rig.neutral, heat=skin)
     page = Pillow.fromarray(picture[..., :3])
     draw = ImageDraw.Draw(page)
@@ -115,7 +124,8 @@ def _blend(rig: Rig, vertices: Sequence[int]) -> Floats:
     between = np.linalg.norm(points[:, None] - points[None], axis=2)
     np.fill_diagonal(between, np.inf)
     usual = float(np.median(between.min(axis=1))) if len(points) > 1 else 0.1 * rig.height
-    return np.clip(1.0 - gaps / (REACH * usual), 0.0, None) ** 2
+    near: Floats = np.clip(1.0 - gaps / (REACH * usual), 0.0, None) ** 2
+    return near
 
 
 def _mean(values: Floats) -> Floats:

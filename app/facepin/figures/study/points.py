@@ -11,7 +11,7 @@ from facepin.figures.posing import in_sight
 
 MOVED = 0.01
 """A place counts if some shape at weight 1 moves it by at least this share of the face height."""
-POOL = 20
+POOL = 6
 """Places drawn by chance for each one that is chosen: the choice is even, and another with every seed."""
 
 

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.table import Table
 
+WIDEST = 14.0
+"""Inches of a chart."""
+
 
 def plain_choices(choices: Sequence[SolverChoice]) -> dict[str, Any]:
     """Return the settings of solvers by their keys."""
@@ -97,7 +100,8 @@ def dot_chart(labels: Sequence[str], keys: Sequence[str], panels: Sequence[Panel
     from matplotlib.figure import Figure
 
     with chart_style():
-        figure = Figure((2.75 * len(panels), 0.24 * len(labels) + 1.3), layout="constrained")
+        width = min(2.75 * len(panels), WIDEST)
+        figure = Figure((width, 0.24 * len(labels) + 1.3), layout="constrained")
         axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
         for axis, panel in zip(axes, panels, strict=True):
             _dots(axis, keys, panel)

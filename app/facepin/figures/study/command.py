@@ -25,6 +25,8 @@ from facepin.options import add_rigs, add_solver, open_with_bar, solver_choices
 
 FREEDOMS: tuple[Freedom, ...] = get_args(Freedom)
 TRIALS = 40
+WIDEST = 500
+"""Characters in a line of a table that no terminal is waiting for."""
 
 Found = TypeVar("Found")
 
@@ -46,7 +48,10 @@ def add_options(parser: ArgumentParser) -> None:
     )
     add_solver(parser, "all", "--solvers")
     parser.add_argument(
-        "--no-limits", dest="limits", action="store_false", help="of --drags, where limits are kept otherwise"
+        "--no-limits",
+        dest="limits",
+        action="store_false",
+        help="let weights go beyond (default; with --drags, limits are kept)",
     )
     parser.set_defaults(limits=None)
 
@@ -210,7 +215,8 @@ def _print(options: Namespace, told: dict[str, Any], table: Callable[[], Any]) -
 
         console, made = Console(), table()
         if not console.is_terminal:  # in a file there is room for all of it
-            console.width = max(console.width, console.measure(made).maximum)
+            anything = console.options.update(width=WIDEST)
+            console.width = max(console.width, console.measure(made, options=anything).maximum)
         console.print(made)
 
 

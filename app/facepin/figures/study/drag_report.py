@@ -12,8 +12,11 @@ from facepin.figures.study.drag_study import DragRow, DragStudy
 from facepin.figures.study.drags import PIXEL
 from facepin.figures.study.maps import write_maps
 from facepin.figures.study.telling import (
+    ENDS,
     Panel,
+    cell,
     dot_chart,
+    heading_row,
     plain_choices,
     plain_figures,
     plain_table,
@@ -86,13 +89,15 @@ def origin(studies: Sequence[DragStudy]) -> str:
 
 def as_table(studies: Sequence[DragStudy]) -> "Table":
     """Return what the terminal shows: rows of one rig, size and freedom under a line that says so."""
-    from rich.markup import escape
-
-    table = plain_table(f"{origin(studies)}\n{WORDS}", ["solver"], list(COLUMNS))
+    rows = studies[0].rows
+    sure = any(row.intervals for row in rows)
+    title = f"{origin(studies)}\n{WORDS}{'; ' + ENDS if sure else ''}"
+    table = plain_table(title, ["solver"], list(COLUMNS))
+    several = len({row.freedom for row in rows}) > 1
     for study in studies:
         for freedom, size in dict.fromkeys((row.freedom, row.size) for row in study.rows):
             rig = [study.rig.name] if len(studies) > 1 else []
-            table.add_row("[bold]" + escape(", ".join([*rig, f"{size:g} %, {freedom}"])) + "[/bold]")
+            heading_row(table, [*rig, f"{size:g} %", *([freedom] if several else [])])
             for row in study.rows:
                 if (row.freedom, row.size) == (freedom, size):
                     cells = [_cell(row, names) for names in COLUMNS.values()]
@@ -101,12 +106,9 @@ def as_table(studies: Sequence[DragStudy]) -> "Table":
 
 
 def _cell(row: DragRow, names: tuple[str, ...]) -> str:
-    """Return the figures of a column, and below them their intervals, if there are any."""
-    figures = "/".join(short(getattr(row.figures, name)) for name in names)
-    if not all(name in row.intervals for name in names):
-        return figures
-    ends = ["–".join(map(short, row.intervals[name])) for name in names]
-    return f"{figures}\n[dim]{'/'.join(ends)}[/dim]"
+    figures = [short(getattr(row.figures, name)) for name in names]
+    intervals = [row.intervals[name] for name in names if name in row.intervals]
+    return cell(figures, [(short(low), short(high)) for low, high in intervals])
 
 
 def short(figure: float) -> str:

@@ -10,9 +10,12 @@ from facepin.figures.compare import made_folder
 from facepin.figures.study.animator import FRAMES, drawable
 from facepin.figures.study.study import Row, Study
 from facepin.figures.study.telling import (
+    ENDS,
     Panel,
     brief,
+    cell,
     dot_chart,
+    heading_row,
     plain_choices,
     plain_figures,
     plain_table,
@@ -76,7 +79,7 @@ def origin(studies: Sequence[Study]) -> str:
     """Return in a line what was simulated."""
     first, protocol = studies[0], studies[0].protocol
     rigs = ", ".join(study.rig.name for study in studies)
-    poses = f"of {first.reference}" if first.reference else f"of {protocol.shapes} shapes"
+    poses = f"from {first.reference}" if first.reference else f"of {protocol.shapes} shapes"
     return (
         f"{rigs}: {first.trials} poses {poses}, {protocol.pins} pins, "
         f"medians, noise {protocol.noise:g} %, seed {protocol.seed}; lengths in % of face height"
@@ -85,17 +88,20 @@ def origin(studies: Sequence[Study]) -> str:
 
 def as_table(studies: Sequence[Study]) -> "Table":
     """Return what the terminal shows."""
-    several = len(studies) > 1
-    left = [*(["rig"] if several else []), "solver", "freedom"]
-    table = plain_table(origin(studies), left, list(HEADINGS.values()))
-    for column in table.columns[len(left) :]:
-        column.min_width = 6
+    sure = any(row.intervals for row in studies[0].rows)
+    title = f"{origin(studies)}{'; ' + ENDS if sure else ''}"
+    table = plain_table(title, ["solver", "freedom"], list(HEADINGS.values()), least=6)
     for study in studies:
+        heading_row(table, [study.rig.name] if len(studies) > 1 else [])
         for row in study.rows:
-            figures = [brief(getattr(row.outcome, name), row.intervals.get(name)) for name in HEADINGS]
-            rig = [study.rig.name] if several else []
-            table.add_row(*rig, row.choice.kind.key, row.freedom, *figures)
+            cells = [_cell(row, name) for name in HEADINGS]
+            table.add_row(row.choice.kind.key, row.freedom, *cells)
     return table
+
+
+def _cell(row: Row, name: str) -> str:
+    ends = [(brief(low), brief(high)) for low, high in [row.intervals[name]]] if row.intervals else []
+    return cell([brief(getattr(row.outcome, name))], ends)
 
 
 def write_study(folder: Path, studies: Sequence[Study]) -> list[Path]:

@@ -43,8 +43,11 @@ def plain_figures(figures: Mapping[str, float], intervals: Mapping[str, Interval
     return told
 
 
-def plain_table(title: str, left: Sequence[str], right: Sequence[str]) -> "Table":
-    """Return an empty table for the terminal: columns of words, then columns of figures."""
+ENDS = "below each figure its 95 % interval: the lower end, then the upper"
+
+
+def plain_table(title: str, left: Sequence[str], right: Sequence[str], least: int = 0) -> "Table":
+    """Return an empty table for the terminal: columns of words, then columns of figures, `least` wide."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -52,16 +55,31 @@ def plain_table(title: str, left: Sequence[str], right: Sequence[str]) -> "Table
     for heading in left:
         table.add_column(heading, no_wrap=True)
     for heading in right:
-        table.add_column(heading, justify="right", no_wrap=True)
+        table.add_column(heading, justify="right", no_wrap=True, min_width=least)
     return table
 
 
-def brief(figure: float, interval: Interval | None = None) -> str:
-    """Return a figure in at most six characters, and below it its interval."""
+def heading_row(table: "Table", words: Sequence[str]) -> None:
+    """Add a line that says what the rows below it are about, if there is anything to say."""
+    from rich.markup import escape
+
+    if words:
+        table.add_row(f"[bold]{escape(', '.join(words))}[/bold]")
+
+
+def cell(figures: Sequence[str], ends: Sequence[tuple[str, str]]) -> str:
+    """Return figures that share a column, and the ends of their intervals, if any, in two lines below."""
+    lines = ["/".join(figures)]
+    if len(ends) == len(figures):
+        lines += [f"[dim]{'/'.join(line)}[/dim]" for line in zip(*ends, strict=True)]
+    return "\n".join(lines)
+
+
+def brief(figure: float) -> str:
+    """Return a figure in at most six characters, so that eight of them fit a terminal of 80 columns."""
     if not isfinite(figure):
         return "-"
-    text = number(figure).replace("e+0", "e").replace("e+", "e")
-    return text if interval is None else f"{text}\n[dim]{brief(interval[0])}–{brief(interval[1])}[/dim]"
+    return number(figure).replace("e+0", "e").replace("e+", "e")
 
 
 def write_rows(folder: Path, name: str, told: Mapping[str, Any]) -> list[Path]:

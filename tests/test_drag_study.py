@@ -1,4 +1,4 @@
-"""The drag study, on rigs where every figure can be worked out by hand."""
+"""The drag study, on rigs where every figure can be worked out by poser."""
 
 import csv
 import json
@@ -23,7 +23,7 @@ from facepin.figures.posing import in_sight
 from facepin.figures.study.drag_report import short
 from facepin.figures.study.drag_study import DragFigures, DragProtocol, DragStudy, drag_study
 from facepin.figures.study.drags import DIRECTIONS, PIXEL, circle, drag_point, straight
-from facepin.figures.study.holding import Hand, press_jump, removal_jump
+from facepin.figures.study.holding import Poser, press_jump, removal_jump
 from facepin.figures.study.intervals import bootstrap, median, p90, percent_above, quantile
 from facepin.figures.study.maps import _blend, draw_map
 from facepin.figures.study.points import movable_vertices, spread_points
@@ -254,6 +254,14 @@ def test_nothing_in_reach_is_no_figure() -> None:
     assert np.isnan([found.lag_median_percent, found.lag_p90_percent, found.dead_percent]).all()
 
 
+def test_a_single_point_is_enough() -> None:
+    """There is nothing then to be held, to slip or to jump."""
+    one = replace(PROTOCOL, points=1)
+    found = drag_study(block_rig(), one, [(choose("transpose"), "screen")], intervals=True).rows[0]
+    assert np.isnan([found.figures.slip_median_percent, found.figures.press_jump_percent]).all()
+    assert "slip_median_percent" not in found.intervals and "lag_p90_percent" in found.intervals
+
+
 def test_pins_of_their_own_shapes_hold_and_nothing_jumps() -> None:
     found = figures(drag_study(single_rig(), PROTOCOL, [(choose("pseudo_inverse"), "screen")]))
     assert found.press_jump_percent == pytest.approx(0, abs=1e-5)
@@ -275,7 +283,7 @@ def test_pins_on_one_shape_slip_as_far_as_it_is_dragged() -> None:
     assert found.sequence_lag_p90_percent == pytest.approx(np.quantile(lags * 3, 0.9), abs=0.01)
 
 
-class _FakeHand:
+class _FakePoser:
     """A hand under which the face moves as a test says."""
 
     def __init__(self, rig: Rig, jump: Floats) -> None:
@@ -300,12 +308,12 @@ def test_jumps_are_the_largest_moves_and_trials_are_taken_back() -> None:
     jump = np.zeros((rig.vertex_count, 3), np.float32)
     jump[7] = (0.0, 0.3, 0.4)
     jump[200] = (0.9, 0.0, 0.0)
-    hand = _FakeHand(rig, jump)
-    assert press_jump(rig, cast(Hand, hand), 5) == pytest.approx(0.9)
-    assert hand.done == ["press 5", "cancel"]
-    hand = _FakeHand(rig, jump)  # what is near the nudged pin may move
-    assert removal_jump(rig, cast(Hand, hand), removed=5, nudged=200) == pytest.approx(0.5)
-    assert hand.done == ["remove 5", "drag 200", "to 3"]
+    poser = _FakePoser(rig, jump)
+    assert press_jump(rig, cast(Poser, poser), 5) == pytest.approx(0.9)
+    assert poser.done == ["press 5", "cancel"]
+    poser = _FakePoser(rig, jump)  # what is near the nudged pin may move
+    assert removal_jump(rig, cast(Poser, poser), removed=5, nudged=200) == pytest.approx(0.5)
+    assert poser.done == ["remove 5", "drag 200", "to 3"]
 
 
 def test_a_study_is_the_same_for_any_number_of_processes_and_another_with_every_seed() -> None:

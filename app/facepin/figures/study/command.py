@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from itertools import product
 from os import cpu_count
 from pathlib import Path
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -20,10 +20,9 @@ from facepin.figures.study import drag_report, report
 from facepin.figures.study.animator import Protocol
 from facepin.figures.study.drag_study import DragProtocol, DragStudy, drag_study
 from facepin.figures.study.references import References, read_references
-from facepin.figures.study.study import Study, study
+from facepin.figures.study.study import FREEDOMS, Study, study
 from facepin.options import add_rigs, add_solver, open_with_bar, solver_choices
 
-FREEDOMS: tuple[Freedom, ...] = get_args(Freedom)
 TRIALS = 40
 WIDEST = 500
 """Characters in a line of a table that no terminal is waiting for."""

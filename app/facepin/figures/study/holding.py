@@ -39,7 +39,7 @@ class Case:
     """(≤ `DRAGS`,) what remains between the dragged vertex and its goal, of the drag."""
 
 
-class Hand:
+class Poser:
     """A session in which pins are placed, dragged and removed, seen straight from the front."""
 
     def __init__(self, rig: Rig, method: Method) -> None:
@@ -100,16 +100,16 @@ def hold(rig: Rig, method: Method, points: Sequence[int], percent: float, seed: 
     size = percent / 100 * rig.height
     angles = random.uniform(0.0, 2 * pi, len(vertices))
     moves = size * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    hand = Hand(rig, method)
+    poser = Poser(rig, method)
     press, removals, slips, lags = [], [], [], []
     for at, (vertex, move) in enumerate(zip(vertices, moves, strict=True)):
         held = vertices[:at]
         if at == POSED:
-            press.append(press_jump(rig, hand, vertex))
-            removals += [removal_jump(rig, hand, held[i], held[i - 1]) for i in range(POSED)]
-        before = [hand.place(each)[:2] for each in (*held, vertex)]
-        hand.drag(vertex, move)
-        after = [hand.place(each)[:2] for each in (*held, vertex)]
+            press.append(press_jump(rig, poser, vertex))
+            removals += [removal_jump(rig, poser, held[i], held[i - 1]) for i in range(POSED)]
+        before = [poser.place(each)[:2] for each in (*held, vertex)]
+        poser.drag(vertex, move)
+        after = [poser.place(each)[:2] for each in (*held, vertex)]
         way = np.array(after) - before
         slips += np.linalg.norm(way[:-1], axis=1).tolist()
         lags.append(np.linalg.norm(move - way[-1]))
@@ -122,21 +122,21 @@ def hold(rig: Rig, method: Method, points: Sequence[int], percent: float, seed: 
     )
 
 
-def press_jump(rig: Rig, hand: Hand, vertex: int) -> float:
+def press_jump(rig: Rig, poser: Poser, vertex: int) -> float:
     """Return the largest move of a vertex when a pin is pressed and the mouse has not moved, a length."""
-    before = hand.face
-    hand.drag(vertex, np.zeros(2), final=False)
-    jump = float(measures.moves(hand.face, before).max())
-    hand.session.cancel()
+    before = poser.face
+    poser.drag(vertex, np.zeros(2), final=False)
+    jump = float(measures.moves(poser.face, before).max())
+    poser.session.cancel()
     return jump
 
 
-def removal_jump(rig: Rig, hand: Hand, removed: int, nudged: int) -> float:
+def removal_jump(rig: Rig, poser: Poser, removed: int, nudged: int) -> float:
     """Return the largest move of a vertex, far from a pin that is nudged, after another was removed."""
-    before, step = hand.face, hand.session.step
-    hand.remove(removed)
-    hand.drag(nudged, np.array([PIXEL * rig.height, 0.0]), final=False)
+    before, step = poser.face, poser.session.step
+    poser.remove(removed)
+    poser.drag(nudged, np.array([PIXEL * rig.height, 0.0]), final=False)
     away = measures.moves(rig.neutral, rig.neutral[nudged]) > NEAR_NUDGE * rig.height
-    jump = float(measures.moves(hand.face, before)[away].max(initial=0.0))
-    hand.session.go_to(step)
+    jump = float(measures.moves(poser.face, before)[away].max(initial=0.0))
+    poser.session.go_to(step)
     return jump

@@ -30,6 +30,8 @@ def quantile(values: Floats, share: float) -> Floats:
 
     NaN where there are no values.
     """
+    if not values.shape[-1]:
+        return np.full(values.shape[:-1], np.nan)
     ordered = np.sort(values, axis=-1)  # what is not a number comes last
     place = np.maximum(share * (np.count_nonzero(~np.isnan(ordered), axis=-1) - 1), 0.0)[..., None]
     below = np.floor(place).astype(np.intp)

@@ -9,6 +9,7 @@ import numpy as np
 from facepin.core.arrays import Floats
 from facepin.core.camera import Viewport
 from facepin.core.heat import heat_colours
+from facepin.core.measures import moves
 from facepin.core.rig import Rig
 from facepin.figures.pictures import Painter
 from facepin.figures.study.drag_study import DragRow, DragStudy
@@ -119,11 +120,10 @@ def _colour(value: float) -> tuple[int, int, int]:
 
 def _blend(rig: Rig, vertices: Sequence[int]) -> Floats:
     """Return how much each vertex takes from each point, (n, p): near ones all, distant ones nothing."""
-    points = rig.neutral[list(vertices)].astype(np.float64)
-    gaps = np.linalg.norm(rig.neutral[:, None, :] - points[None], axis=2)
-    between = np.linalg.norm(points[:, None] - points[None], axis=2)
+    gaps = np.stack([moves(rig.neutral, rig.neutral[vertex]) for vertex in vertices], axis=1)
+    between = gaps[list(vertices)]
     np.fill_diagonal(between, np.inf)
-    usual = float(np.median(between.min(axis=1))) if len(points) > 1 else 0.1 * rig.height
+    usual = float(np.median(between.min(axis=1))) if len(vertices) > 1 else 0.1 * rig.height
     near: Floats = np.clip(1.0 - gaps / (REACH * usual), 0.0, None) ** 2
     return near
 

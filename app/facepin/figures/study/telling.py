@@ -92,12 +92,25 @@ def write_rows(folder: Path, name: str, told: Mapping[str, Any]) -> list[Path]:
     """
     paths = [folder / f"{name}.json", folder / f"{name}.csv"]
     text = StringIO(newline="")
-    table = csv.DictWriter(text, list(told["rows"][0]))
+    rows = [_flat(row) for row in told["rows"]]
+    table = csv.DictWriter(text, list(rows[0]))
     table.writeheader()
-    table.writerows(told["rows"])
+    table.writerows(rows)
     atomic_write(paths[0], (json.dumps(told, indent=2, ensure_ascii=False) + "\n").encode())
     atomic_write(paths[1], text.getvalue().encode())
     return paths
+
+
+def _flat(row: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a row with the ends of its intervals in columns of their own."""
+    flat: dict[str, Any] = {}
+    for name, value in row.items():
+        if isinstance(value, list):
+            figure = name.removesuffix("_interval")
+            flat[f"{figure}_low"], flat[f"{figure}_high"] = value
+        else:
+            flat[name] = value
+    return flat
 
 
 @dataclass(frozen=True)

@@ -95,13 +95,10 @@ def study(
     for number, outcomes in spread(plan.trial, trials, jobs):
         done[number] = outcomes
         progress(len(done) / trials)
-    rows = []
+    rows, names = [], [each.name for each in fields(Outcome)]
     for which, method in enumerate(plan.methods):
         own = [done[number][which] for number in range(trials)]
-        values = {
-            name.name: np.array([float(getattr(outcome, name.name)) for outcome in own])
-            for name in fields(Outcome)
-        }
+        values = {name: np.array([getattr(each, name) for each in own], np.float64) for name in names}
         sure = {name: bootstrap(each, median) for name, each in values.items()} if intervals else {}
         outcome = Outcome(**{name: float(np.median(each)) for name, each in values.items()})
         rows.append(Row(*method, outcome, sure))

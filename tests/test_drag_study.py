@@ -248,7 +248,7 @@ def test_drags_that_are_felt_far_away_are_counted_among_all() -> None:
 
 
 def test_nothing_in_reach_is_no_figure() -> None:
-    far = replace(PROTOCOL, sizes=(50.0,))
+    far = replace(PROTOCOL, points=2, sizes=(50.0,))
     found = figures(drag_study(block_rig(), far, [(choose("transpose", keep_limits=True), "screen")]))
     assert found.reachable == 0
     assert np.isnan([found.lag_median_percent, found.lag_p90_percent, found.dead_percent]).all()

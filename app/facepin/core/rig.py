@@ -12,6 +12,7 @@ from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.columns import Columns
+from facepin.core.sentinels import Sentinels, find_sentinels
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +126,11 @@ class Rig:
     def scale(self) -> float:
         """Mean over shapes of the squared largest vertex move: the unit of relative solver settings."""
         return float(np.mean(self.largest_moves**2)) if self.shape_count else 0.0
+
+    @cached_property
+    def sentinels(self) -> Sentinels:
+        """Places that stand for the whole face; found when first needed."""
+        return find_sentinels(self.deltas, self.neutral, self.shape_count, self.height)
 
     @cached_property
     def fingerprint(self) -> str:

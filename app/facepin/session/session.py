@@ -12,11 +12,12 @@ from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
-from facepin.core.pose import Pose, hold_alike, rest_pose
+from facepin.core.pose import Pin, Pose, hold_alike, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.edit import Edit
 from facepin.session.history import History, Step
+from facepin.session.press import Begun, Press, begin, grabbed, press
 from facepin.session.shelf import Shelf
 from facepin.session.solving import PinSolver, Solved, SolverChoice, snapped
 
@@ -78,6 +79,8 @@ class Session:
         self._preview_label = ""
         self._active = 0
         self._solvers: dict[tuple[int, SolverChoice, ShapeControl], PinSolver] = {}
+        self._begun: tuple[tuple[Work, Pose, tuple[int, ...], frozenset[int]], Begun] | None = None
+        """Where the drag in progress began, and which it is."""
 
     @classmethod
     def resumed(cls, rig: Rig, work: Work, active: int = 0) -> "Session":
@@ -353,17 +356,18 @@ class Session:
             poses[self.active] = pose
             return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
         if edit.solve:
-            return self._dragged(panes, poses)
+            return self._dragged(before, pins)
         if hold_alike(
             pins, panes[0].pose.pins
         ):  # the last drag is still what another solver can be asked for
             return tuple(replace(pane, pose=pose) for pane, pose in zip(panes, poses, strict=True))
         # A new pin holds what is there; but what a removed one made must not fall back with the next drag.
-        placed = {pin.vertex for pin in pins} >= {pin.vertex for pin in panes[0].pose.pins}
-        return tuple(
-            replace(pane, pose=pose, began=None) if placed else pane.by_hand(pose)
-            for pane, pose in zip(panes, poses, strict=True)
-        )
+        if {pin.vertex for pin in pins} >= {pin.vertex for pin in panes[0].pose.pins}:
+            return tuple(
+                replace(pane, pose=pose, began=None) for pane, pose in zip(panes, poses, strict=True)
+            )
+        pins = snapped(self.rig, poses[self.active], control).pins
+        return tuple(pane.by_hand(pose.with_pins(pins)) for pane, pose in zip(panes, poses, strict=True))
 
     def _tell_locks(self, work: Work, weights: Floats) -> None:
         """Say in `message` which locks keep the active pane from these weights (k,), if any do."""
@@ -371,54 +375,78 @@ class Session:
         names = listed([self.rig.shape_names[j] for j in broken])
         self.message = f"{names} {'is' if len(broken) == 1 else 'are'} locked" if names else ""
 
-    def _dragged(self, panes: tuple[Pane, ...], poses: Sequence[Pose]) -> tuple[Pane, ...]:
-        """Return the panes solved for new pins; where one of several solvers fails, its weights stay.
+    def _dragged(self, before: Work, pins: tuple[Pin, ...]) -> tuple[Pane, ...]:
+        """Return the panes solved for pins that were moved; where one of several solvers fails, its weights stay.
 
         Raises
         ------
         FacepinError
             When all of them fail.
         """
+        begun = self._pressed(before, pins)
+        pins = begun.shown(pins)
         dragged: list[Pane] = []
         failures: list[FacepinError] = []
-        for at, (pane, pose) in enumerate(zip(panes, poses, strict=True)):
+        for at, (pane, press) in enumerate(zip(before.panes, begun.presses, strict=True)):
             try:
-                dragged.append(self._solve(at, replace(pane, began=pane.pose), pose))
+                dragged.append(self._solve(at, pane, press, pins))
             except FacepinError as error:
                 failures.append(error)
-                kept = self.panes[at].pose if len(self.panes) == len(panes) else pane.pose
-                dragged.append(replace(pane, pose=kept.with_pins(pose.pins), began=pane.pose, solved=None))
-        if len(failures) == len(panes):
+                kept = self.panes[at].pose if len(self.panes) == len(before.panes) else pane.pose
+                dragged.append(replace(pane, pose=kept.with_pins(pins), began=press.pose, solved=None))
+        if len(failures) == len(before.panes):
             raise failures[0]
         self.message = str(failures[0]) if failures else ""
         return tuple(dragged)
 
+    def _pressed(self, before: Work, pins: tuple[Pin, ...]) -> Begun:
+        """Return where the drag began in each pane; the same for all its frames."""
+        vertices = tuple(pin.vertex for pin in pins)
+        active = before.panes[min(self._active, len(before.panes) - 1)].pose
+        key = before, active, vertices, grabbed(active.pins, pins)
+        if self._begun is None or self._begun[0] != key:
+            snaps = not any(pane.choice.kind.afresh for pane in before.panes)
+            begun = begin(
+                self.rig,
+                before.control,
+                active,
+                [(pane.pose, pane.began) for pane in before.panes],
+                pins,
+                snaps=snaps,
+            )
+            self._begun = key, begun
+        return self._begun[1]
+
     def _with_solver(self, at: int, pane: Pane, choice: SolverChoice) -> Pane:
         """Return a pane with its last drag, if it was the last step, solved in another way."""
         chosen = replace(pane, choice=choice, solved=None)
-        if pane.began is None:
+        if pane.began is None or len(pane.began.pins) != len(pane.pose.pins):
             return chosen
         try:
-            return self._solve(at, chosen, pane.began.with_pins(pane.pose.pins))
+            begun = press(self.rig, self._history.current.control, pane.began)
+            return self._solve(at, chosen, begun, pane.pose.pins)
         except FacepinError as error:
             self.message = str(error)
             return chosen
 
-    def _solve(self, at: int, pane: Pane, start: Pose) -> Pane:
-        """Return a pane with the weights of `start` carried towards its pins."""
+    def _solve(self, at: int, pane: Pane, press: Press, pins: tuple[Pin, ...]) -> Pane:
+        """Return a pane with its weights carried towards its pins."""
         control = self._history.current.control
         solver = self._solvers.get((at, pane.choice, control))
         if solver is None:
             if len(self._solvers) >= 4 * MOST_PANES:  # a setting that is being slid leaves a trail
                 self._solvers.clear()
             solver = self._solvers[at, pane.choice, control] = PinSolver(self.rig, pane.choice, control)
-        weights = pane.hand if pane.choice.kind.afresh else start.weights
+        weights, pulled = press.pose.weights, press.pulled(pins)
+        if pane.choice.kind.afresh:
+            weights, pulled = pane.hand, pins
         if control.held.any():  # a shape may have been locked after the weights that the solver starts from
             weights = np.where(control.held, pane.pose.weights, weights)
-        solved = solver.solve(start.pins, weights)
+        solved = solver.solve(pulled, weights, grabbed(press.pose.pins, pins))
         largest = float(np.abs(solved.weights).max(initial=0.0))
         if largest > LARGEST_WEIGHT:  # it could not be saved
             raise FacepinError(
                 f"{pane.choice.kind.title} gave a weight of {largest:.0e}, allowed are {LARGEST_WEIGHT:.0e}"
             )
-        return replace(pane, pose=start.with_weights(solved.weights), solved=solved)
+        pose = press.pose.with_weights(solved.weights).with_pins(pins)
+        return replace(pane, pose=pose, began=press.pose, solved=solved)

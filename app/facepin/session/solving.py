@@ -82,8 +82,10 @@ class PinSolver:
         self._start: Floats | None = None
         self._prepared: _Prepared | None = None
 
-    def solve(self, pins: tuple[Pin, ...], start: Floats) -> Solved:
+    def solve(self, pins: tuple[Pin, ...], start: Floats, grabbed: frozenset[int] | None = None) -> Solved:
         """Return weights (k,) that carry the pins towards their goals from the weights `start` (k,).
+
+        `grabbed` are the vertices of the pins in the hand, None for all; to most solvers pins are all alike.
 
         Raises
         ------
@@ -93,11 +95,11 @@ class PinSolver:
         kind = self.choice.kind
         displacement = pin_displacement(self._rig, pins)
         try:
-            prepared = self._prepare(pins, start)
+            prepared = self._prepare(pins, start, grabbed)
             began = perf_counter()
             weights, notes = prepared.answer(displacement, start)
-            if kind.afresh and prepared.problem.curved:
-                # Such a start may be far from the answer, and the face another one there.
+            if (kind.afresh or kind.grasps) and prepared.problem.curved:
+                # The start may be far from the answer, and the face another one there.
                 for _ in range(SECOND_LOOKS):
                     again = self._linearised(prepared.problem, weights)
                     before = weights
@@ -112,15 +114,22 @@ class PinSolver:
         missing = prepared.problem.moves(weights) - displacement
         return Solved(frozen(weights, np.float64), _mean_length(pins, missing), seconds, notes)
 
-    def _prepare(self, pins: tuple[Pin, ...], start: Floats) -> "_Prepared":
+    def _prepare(self, pins: tuple[Pin, ...], start: Floats, grabbed: frozenset[int] | None) -> "_Prepared":
         """Return the solver for pins at these places; goals may differ from call to call."""
-        places = tuple(
-            (pin.vertex, pin.freedom, pin.axes if pin.freedom == "screen" else None, pin.stiffness)
-            for pin in pins
+        if not self.choice.kind.grasps:
+            grabbed = None
+        elif grabbed is None:
+            grabbed = frozenset(pin.vertex for pin in pins)
+        places = (
+            grabbed,
+            *(
+                (pin.vertex, pin.freedom, pin.axes if pin.freedom == "screen" else None, pin.stiffness)
+                for pin in pins
+            ),
         )
         if self._prepared is None or places != self._places or not self._fits(self._prepared, start):
             radius = getattr(self.choice.settings, "radius", 0.0)
-            problem = PinProblem(self._rig, self._control, pins, start, radius)
+            problem = PinProblem(self._rig, self._control, pins, start, radius=radius, grabbed=grabbed)
             self._prepared = self._linearised(problem, start)
             self._places, self._start = places, start
         return self._prepared

@@ -11,6 +11,26 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
+class Grasp:
+    """What the hand holds, and what it should leave alone: for solvers that are relative to the press."""
+
+    starts: NDArray[np.intp]
+    """(p,) first row of each pin, ascending."""
+    grabbed: NDArray[np.bool_]
+    """(p,) pins in the hand; the others hold what is where it is."""
+    stiffness: Floats
+    """(p,) how hard each pin pulls; its rows are scaled by the square root."""
+    height: float
+    """Face height, the length that all lengths of a hand are shares of."""
+    far: Floats
+    """(s, 3, k) slopes of places that are far from all pins in the hand: these should not go along."""
+    likeness: Floats
+    """(k, k) cosines between the motions of shapes: negative where one undoes what the other does."""
+    answers: NDArray[np.bool_] | None = None
+    """(k,) shapes that may follow the pins in the hand; None for all."""
+
+
+@dataclass(frozen=True, eq=False)
 class PinSystem:
     """The part of the problem that stays the same during a drag.  All entries are finite."""
 
@@ -28,6 +48,8 @@ class PinSystem:
     """Pairs (a, b) of shapes: the weight of a may be at most that of b.  For solvers that obey limits."""
     guess: Floats | None = None
     """(k,) weights that an answer is likely to be near to, for solvers that search; None: the start."""
+    grasp: Grasp | None = None
+    """What the hand holds, for solvers that ask for it; None: every row is a pin in the hand."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +83,8 @@ class SolverKind:
     """Solves all pins afresh on every drag: its start is the last pose that no drag made (the neutral,
     sliders, a loaded pose), not the weights at the press.  A new pin starts where its vertex is, which leaves
     the answer as it was: nothing jumps at a press, and the order of the drags leaves no trace."""
+    grasps: bool = False
+    """Is told which pins are in the hand and what lies far from them (`PinSystem.grasp`)."""
 
 
 def setting(

@@ -126,7 +126,7 @@ def roll_upper(lip: Lips) -> Array:
 def shrug_lower(lip: Lips) -> Array:
     """Lower lip pushed up and out by the chin; the upper lip rides on it."""
     m, low, t = middle(lip.across), lip.side < 0, lip.depth
-    up = 0.95 * np.where(low, mix(0.34, 0.52, t), mix(0.34, 0.24, t))
+    up = 0.95 * np.where(low, mix(0.34, 0.52, t * t), mix(0.34, 0.24, t))
     return columns(0, m * up, m * np.where(low, mix(0.16, 0.26, t), 0.10))
 
 

@@ -49,7 +49,7 @@ def lashes(skin: Skin, field: HeadField) -> tuple[Mesh, Ints]:
     margin, inside = skin.vertices[root], skin.vertices[lining]
     outward = unit(margin - np.array(field.anatomy.eye.centre))
     t = np.linspace(0, 1, count)
-    length = mix(0.02, 0.46, smoothstep(0.05, 0.75, t)) * np.clip((1 - t) / 0.22, 0.02, 1) ** 0.8
+    length = mix(0.02, 0.46, smoothstep(0.05, 0.75, t)) * np.clip((1 - t) / 0.45, 0.02, 1) ** 1.4
     thick = np.clip(length / 0.30, 0.05, 1)[:, None]
     tip = unit(outward + np.array([0.18, 0.55, 0.25]) + np.c_[0.5 * t, 0 * t, 0 * t])
     up = unit(np.cross(unit(np.gradient(margin, axis=0)), outward))

@@ -84,6 +84,15 @@ def _bilaplacian(vertices: Array, triangles: Ints) -> sp.csr_matrix:
     return (laplacian @ sp.diags(1 / mass) @ laplacian).tocsr()
 
 
+def _mean_of_neighbours(count: int, triangles: Ints) -> sp.csr_matrix:
+    """Return the (n, n) matrix that averages over the other ends of a vertex's edges."""
+    ends = np.concatenate([triangles[:, [i, j]] for i, j in ((0, 1), (1, 2), (2, 0))])
+    ends = np.concatenate([ends, ends[:, ::-1]])
+    joined = sp.coo_matrix((np.ones(len(ends)), ends.T), shape=(count, count)).tocsr()
+    joined.data[:] = 1
+    return (sp.diags(1 / np.asarray(joined.sum(1)).ravel()) @ joined).tocsr()
+
+
 class SkinDeformer:
     """The skin with its ring coordinates and the tools that shapes are made with."""
 
@@ -96,6 +105,7 @@ class SkinDeformer:
         self.reference = self.map.to_reference(skin.vertices)
         self.off_centre: Array = np.abs(self.reference[:, 0])
         self._operator = _bilaplacian(skin.vertices, skin.triangles)
+        self._mean_of_neighbours = _mean_of_neighbours(n, skin.triangles)
         self.mouth_ring, self.eye_ring = np.full(n, NO_RING), np.full(n, NO_RING)
         self.across, self.side = np.zeros(n), np.zeros(n)
         curves = lip_curves(anatomy.mouth)
@@ -116,6 +126,11 @@ class SkinDeformer:
         self.inside: Mask = self.mouth_ring < 0
         self.depth = np.zeros(n)
         self.depth[self.around_lip] = np.array((*LIP_PROFILE, 1))[self.mouth_ring[self.around_lip]]
+
+    def averaged(self, values: Array) -> Array:
+        """Return (n,) values half way to the mean of their neighbours."""
+        result: Array = (values + self._mean_of_neighbours @ values) / 2
+        return result
 
     def brush(self, centre: Sequence[float], radii: Sequence[float], left_only: bool = False) -> Array:
         """Return an (n,) bell about a point of the reference face, and about its image unless `left_only`."""

@@ -47,9 +47,10 @@ def folded(deformer: SkinDeformer, fold: Fold) -> Array:
     place = deformer.reference
     share, across, beyond = beside_line(place[:, :2], np.array(fold.line))
     strength = smoothstep(0, 0.25, share) * smoothstep(1, 0.6, share) * bump(beyond, 0, fold.width)
-    strength = strength * (place[:, 2] > FRONT) * (deformer.vertices[:, 0] > 0) * smoothstep(1, 4, deformer.eye_ring)
+    strength = strength * (place[:, 2] > FRONT) * (deformer.vertices[:, 0] > 0)
     flesh = fold.height * bump(across, 1.7 * fold.width, 1.4 * fold.width)
     height = strength * (flesh - fold.depth * bump(across, 0, fold.width))
     for _ in range(SMOOTHINGS):
         height = deformer.averaged(height)
-    return deformer.normals * height[:, None]
+    off_the_margin = smoothstep(1, 4, deformer.eye_ring)
+    return deformer.normals * (height * off_the_margin)[:, None]

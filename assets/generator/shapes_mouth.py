@@ -191,7 +191,7 @@ BRUSHES: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], tuple[float
     "eyeSquintLeft": (((3.7, -2.9, 5.2), (1.8, 1.6, 3.0), (0, 0.50, 0.24), "lids lips"),),
     "cheekSquintLeft": (
         ((3.7, -3.1, 5.2), (1.9, 1.8, 3.0), (0.02, 0.80, 0.16), "lids lips"),
-        ((3.5, -2.9, 5.6), (1.5, 1.2, 2.0), (0.04, 0.0, 0.36), "lips"),
+        ((3.5, -2.9, 5.6), (1.5, 1.2, 2.0), (0.04, 0.0, 0.40), "lids lips"),
     ),
 }
 """Shape -> (centre, radii, displacement, what the brush keeps off) on the left side."""

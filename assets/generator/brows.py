@@ -50,7 +50,7 @@ def lashes(skin: Skin, field: HeadField) -> tuple[Mesh, Ints]:
     outward = unit(margin - np.array(field.anatomy.eye.centre))
     t = np.linspace(0, 1, count)
     length = mix(0.02, 0.46, smoothstep(0.05, 0.75, t)) * np.clip(((1 - t) / 0.45) ** 1.4, 0.02, 1)
-    thick = np.clip(length / 0.30, 0.05, 1)[:, None]
+    thick = np.clip(length / 0.30, 0.2, 1)[:, None]
     tip = unit(outward + np.array([0.18, 0.55, 0.25]) + np.c_[0.5 * t, 0 * t, 0 * t])
     up = unit(np.cross(unit(np.gradient(margin, axis=0)), outward))
     up *= np.sign(up[:, 1:2])

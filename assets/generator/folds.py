@@ -1,4 +1,4 @@
-"""The folds that skin makes where a muscle pushes it together: beside the nose, round the mouth, under the eye."""
+"""The folds that skin makes where a muscle pushes it together: beside nose and mouth, under the eye."""
 
 from dataclasses import dataclass
 

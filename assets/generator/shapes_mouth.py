@@ -205,7 +205,7 @@ def beside_lips(deformer: SkinDeformer) -> Array:
 
 
 def mouth_shapes(deformer: SkinDeformer) -> dict[str, Array]:
-    """Return displacements of the skin by MOTIONS, BRUSHES and FOLDS; chin and puffed cheeks move on both sides."""
+    """Return displacements of the skin by MOTIONS, BRUSHES and FOLDS; chin and puffed cheeks on both sides."""
     shapes = {name: deformer.mouth(motion, reach) for name, (motion, reach) in MOTIONS.items()}
     keep = {"lips": beside_lips(deformer), "lids": beside_lids(deformer)}
     for name, brushes in BRUSHES.items():

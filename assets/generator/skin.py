@@ -32,7 +32,7 @@ UPPER_FULLNESS = (-0.75, 0.46, 0.95, 1.0, 0.58, 0.06)
 LOWER_FULLNESS = (-0.70, 0.48, 0.96, 1.0, 0.60, 0.04)
 RELAXATIONS = 24
 NASOLABIAL = ((1.65, -2.75), (2.35, -3.6), (2.95, -4.7), (3.2, -5.9))
-"""Where the fold of a smile runs, from the wing of the nose to beside the mouth; x and y on the reference face."""
+"""Where a smile folds, from the wing of the nose to beside the mouth; x and y on the reference face."""
 LIP_ROLL = {4: 0.6, 5: 1.0, 6: 0.72, 7: 0.40, 8: 0.15}
 """How far the mouth rings come forward with a full lip."""
 
@@ -141,7 +141,7 @@ def _middle(half: HalfGrid) -> Mask:
 
 
 def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> None:
-    """Even out the free vertices along the surface; edges at nose, smile fold and chin pull harder and get denser."""
+    """Even out the free vertices along the surface; edges at nose, folds and chin pull harder and get denser."""
     q = half.quads
     edges = np.concatenate([q[:, [0, 1]], q[:, [1, 2]], q[:, [2, 3]], q[:, [3, 0]]])
     edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], 1), axis=0)

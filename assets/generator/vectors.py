@@ -50,8 +50,8 @@ def blob(points: Array, centre: Sequence[float], radii: Sequence[float]) -> Arra
 def beside_line(places: Array, line: Array) -> tuple[Array, Array, Array]:
     """Return where (n, 2) places lie about the polyline through (k, 2) points.
 
-    The three (n,) arrays are the share of the way along it (0..1), the distance from it (positive on the left of
-    its direction), and how far beyond its ends they lie.
+    The three (n,) arrays are the share of the way along it (0..1), the distance from it (positive on the left
+    of its direction), and how far beyond its ends they lie.
     """
     start, along = line[:-1], np.diff(line, axis=0)
     share = np.clip(((places[:, None] - start) * along).sum(2) / (along**2).sum(1), 0, 1)

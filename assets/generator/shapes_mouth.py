@@ -30,7 +30,7 @@ def smile(lip: Lips) -> Array:
     x = lip.across
     corner = left_side(x) ** 1.5
     between, middle_ = bump(x, 0.5, 0.4), bump(x, 0, 0.5)
-    up = 0.70 * left_side(x, 0, 1.06) ** 1.8 - 0.04 * between + 0.02 * middle_
+    up = 0.82 * left_side(x, 0, 1.06) ** 1.8 - 0.04 * between + 0.02 * middle_
     thin = -0.13 * lip.side * lip.depth * lip.height * (between + 0.5 * middle_) * (1 - x**4)
     back = -0.72 * corner**1.4 - 0.10 * between - 0.04 * middle_
     return columns(0.78 * corner, up + thin, back)
@@ -42,7 +42,7 @@ def frown(lip: Lips) -> Array:
     corner = left_side(x) ** 1.5
     arch = 0.10 * (1 - np.abs(x) ** 2) * smoothstep(-0.5, 0.5, x) * (1 - 0.5 * lip.depth)
     out = 0.06 * (lip.side < 0) * lip.depth * bump(x, 0.3, 0.4)
-    return columns(0.10 * corner, -0.85 * corner**1.1 + arch, -0.10 * corner + out)
+    return columns(0.10 * corner, -0.70 * corner**1.1 + arch, -0.10 * corner + out)
 
 
 def dimple(lip: Lips) -> Array:
@@ -55,7 +55,7 @@ def dimple(lip: Lips) -> Array:
 def stretch(lip: Lips) -> Array:
     """Corner out and a little down; the lips thin."""
     x = lip.across
-    up = -0.34 * left_side(x) ** 1.6 - 0.10 * lip.side * lip.depth * bump(x, 0.4, 0.5)
+    up = -0.22 * left_side(x) ** 1.6 - 0.10 * lip.side * lip.depth * bump(x, 0.4, 0.5)
     up += -0.10 * (lip.side < 0) * bump(x, 0.45, 0.35) + 0.06 * (lip.side > 0) * bump(x, 0.45, 0.3)
     back = -0.55 * left_side(x) ** 1.3 - 0.06 * bump(x, 0.4, 0.4)
     return columns(0.85 * left_side(x, -0.2) ** 1.3, up, back)
@@ -166,7 +166,7 @@ MOTIONS: dict[str, tuple[Motion, tuple[float, float, float]]] = {
     "mouthShrugLower": (shrug_lower, (5.4, 4.4, 6.0)),
     "mouthShrugUpper": (shrug_upper, (5.4, 4.4, 6.0)),
     "mouthLeft": (sideways, (6.4, 5.0, 6.5)),
-    "cheekPuff": (puff, (5.4, 4.4, 6.0)),
+    "cheekPuff": (puff, (5.4, 4.0, 6.0)),
 }
 """Shape -> motion of the lips and half axes of the region that gives way."""
 
@@ -205,7 +205,7 @@ def beside_lips(deformer: SkinDeformer) -> Array:
 
 
 def mouth_shapes(deformer: SkinDeformer) -> dict[str, Array]:
-    """Return displacements of the skin by MOTIONS, BRUSHES and FOLDS; chin and puffed cheeks on both sides."""
+    """Return displacements of the skin by MOTIONS, BRUSHES and FOLDS; chin and cheeks on both sides."""
     shapes = {name: deformer.mouth(motion, reach) for name, (motion, reach) in MOTIONS.items()}
     keep = {"lips": beside_lips(deformer), "lids": beside_lids(deformer)}
     for name, brushes in BRUSHES.items():

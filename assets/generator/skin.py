@@ -141,7 +141,7 @@ def _middle(half: HalfGrid) -> Mask:
 
 
 def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> None:
-    """Even out the free vertices along the surface; edges at nose, folds and chin pull harder and get denser."""
+    """Even out the free vertices along the surface; edges at nose, fold and chin pull harder, get denser."""
     q = half.quads
     edges = np.concatenate([q[:, [0, 1]], q[:, [1, 2]], q[:, [2, 3]], q[:, [3, 0]]])
     edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], 1), axis=0)

@@ -211,7 +211,7 @@ def test_neutral_neither_smiles_nor_frowns(model):
 def test_squints_lift_the_cheek(model):
     from generator.checks import cheek_move
 
-    for name, least in (("cheekSquintLeft", 0.5), ("eyeSquintLeft", 0.3), ("mouthSmileLeft", 0.2)):
+    for name, least in (("cheekSquintLeft", 0.5), ("eyeSquintLeft", 0.25), ("mouthSmileLeft", 0.2)):
         across, up, forward = cheek_move(model, model.posed({name: 1}))
         assert up > least, name
         assert forward > 0, name
@@ -236,7 +236,7 @@ def test_a_funnel_parts_the_teeth(model):
     from generator.checks import lip_gap, teeth_gap
 
     posed = model.posed({"mouthFunnel": 1})
-    assert teeth_gap(model, posed) > 0.4
+    assert teeth_gap(model, posed) > 0.35
     assert lip_gap(model, posed)[1] > teeth_gap(model, posed)
 
 

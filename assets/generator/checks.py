@@ -184,7 +184,7 @@ def cheek_move(model: FaceModel, posed: Array) -> Array:
 
 
 def fold_angles(model: FaceModel, posed: Array, line: Sequence[Sequence[float]]) -> Array:
-    """Return (k - 1,) degrees by which the skin turns towards itself across each piece of a line of k points."""
+    """Return (k - 1,) degrees by which skin turns towards itself across each piece of a line of k points."""
     place, normals = _on_reference(model), vertex_normals(posed, model.character.triangles)
     angles = []
     for start, end in pairwise(np.array(line, float)):

@@ -14,7 +14,7 @@ from generator.vectors import Array, Vector, bump, columns, mix, rotation, smoot
 
 OPEN_ANGLE = 17.5
 OPEN_SHIFT: Vector = (0, -0.35, 0.45)
-FUNNEL_OPENS = 0.4
+FUNNEL_OPENS = 0.32
 """How far mouthFunnel opens the jaw: the teeth part, else they would show clenched in its ring."""
 TONGUE_OUT_OPENS = 0.42
 """How far tongueOut opens the jaw, so that the tongue clears the teeth."""

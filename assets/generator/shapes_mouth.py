@@ -106,7 +106,7 @@ def funnel(lip: Lips) -> Array:
     x, side, t = lip.across, lip.side, lip.depth
     a = np.abs(x)
     round_ = np.sqrt(np.clip(1 - a**2.4, 0, 1))
-    open_ = side * np.where(side > 0, 0.10, 0.06) * round_ * mix(1, 0.84, t)
+    open_ = side * 0.12 * round_ * mix(1, 0.84, t)
     return columns(-1.05 * x, -0.12 * a**2 + open_, 0.72 + 0.10 * a - 0.06 * t + 0.10 * round_ * t)
 
 
@@ -188,7 +188,7 @@ BRUSHES: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], tuple[float
         ((0.55, 0.9, 7.0), (0.6, 1.1, 1.6), (0, -0.16, 0.07), "lids"),
         ((1.6, 2.2, 6.6), (1.2, 0.9, 1.6), (-0.1, -0.24, 0.05), "lids"),
     ),
-    "eyeSquintLeft": (((3.7, -2.9, 5.2), (1.8, 1.6, 3.0), (0, 0.50, 0.24), "lids lips"),),
+    "eyeSquintLeft": (((3.7, -2.6, 5.2), (1.8, 1.3, 3.0), (0, 0.36, 0.18), "lids lips"),),
     "cheekSquintLeft": (
         ((3.7, -3.1, 5.2), (1.9, 1.8, 3.0), (0.02, 0.80, 0.16), "lids lips"),
         ((3.5, -2.9, 5.6), (1.5, 1.2, 2.0), (0.04, 0.0, 0.40), "lids lips"),

@@ -201,6 +201,62 @@ def test_lips_meet_and_do_not_cross(model):
         assert crossings(posed, both, behind) == 0, weights
 
 
+def test_neutral_neither_smiles_nor_frowns(model):
+    from generator.checks import corner_lift, eye_corner_facing
+
+    assert abs(corner_lift(model)) < 0.003 * height(model)
+    assert eye_corner_facing(model) > 0.65
+
+
+def test_squints_lift_the_cheek(model):
+    from generator.checks import cheek_move
+
+    for name, least in (("cheekSquintLeft", 0.5), ("eyeSquintLeft", 0.25), ("mouthSmileLeft", 0.2)):
+        across, up, forward = cheek_move(model, model.posed({name: 1}))
+        assert up > least, name
+        assert forward > 0, name
+        assert up > 2 * abs(across), name
+    both = cheek_move(model, model.posed({"cheekSquintLeft": 1, "eyeSquintLeft": 1}))[1]
+    assert both < 1.4 * cheek_move(model, model.posed({"cheekSquintLeft": 1}))[1]
+
+
+def test_smile_and_sneer_fold_the_skin_beside_nose_and_mouth(model):
+    from generator.checks import fold_angles
+    from generator.folds import FOLDS
+
+    neutral = model.character.vertices
+    for name, least in (("mouthSmileLeft", 18), ("noseSneerLeft", 10)):
+        line = FOLDS[name][0].line
+        deeper = fold_angles(model, model.posed({name: 1}), line) - fold_angles(model, neutral, line)
+        assert deeper.min() > 0, name
+        assert deeper.mean() > least, name
+
+
+def test_a_funnel_parts_the_teeth(model):
+    from generator.checks import lip_gap, teeth_gap
+
+    posed = model.posed({"mouthFunnel": 1})
+    assert teeth_gap(model, posed) > 0.35
+    assert lip_gap(model, posed)[1] > teeth_gap(model, posed)
+
+
+def test_closed_lashes_end_at_the_corner_of_the_eye(model):
+    from generator.checks import lash_tail
+
+    assert lash_tail(model, model.posed({"eyeBlinkLeft": 1})) < 0.04
+
+
+def test_a_smile_moves_its_corner_up_and_out(model):
+    skin = model.character.skin
+    corner = skin.mouth_rings[0][len(skin.mouth_rings[0]) // 2]
+    moved = model.deltas[model.names.index("mouthSmileLeft")]
+    lengths = np.linalg.norm(moved, axis=1)
+    across, up, _ = moved[corner]
+    assert min(across, up) > 0.5 * lengths[corner]
+    assert lengths[corner] > 0.85 * lengths.max()
+    assert lengths[skin.mirror[corner]] < 0.01 * lengths.max()
+
+
 def test_tongue_comes_out_between_the_lips(model):
     from generator.checks import crossings, lips, part_triangles
 
@@ -220,10 +276,11 @@ def test_brows_neither_float_nor_sink(model):
 
 
 def test_shapes_are_local(model):
-    from generator.checks import moved_share
+    from generator.checks import far_share, moved_share
 
     for k, name in enumerate(model.names):
         assert 0.001 < moved_share(model, k) < 0.25, name
+        assert far_share(model, k) < 0.02, name
 
 
 @pytest.mark.parametrize("name", EXPRESSIONS)

@@ -10,7 +10,8 @@ is taken from elsewhere.  The way from parameters to a rig:
   symmetry is exact);
 - `eyes`, `mouth_parts`, `brows`, `ears`, `hair` and `shirt` are the other meshes, `colours` paints the skin;
 - `landmarks` carries places between faces, so that shapes and paint are written once, on a reference face;
-- `deformer` spreads displacements of lips, lids and brows over the skin, `shapes_*` say what shapes move;
+- `deformer` spreads displacements of lips, lids and brows over the skin with the matrices of `operators`,
+  `shapes_*` say what shapes move, `folds` where skin folds with them;
 - `assembly` joins all of it, `archive` writes it, `checks` measures it.
 
 Conventions: +x is the character's left, y up, z forward, about centimetres; angles in degrees where named so.

@@ -46,9 +46,9 @@ class Skull:
     neck_muscle: Bone = Bone((0.75, -13.4, -0.15), (3.3, -5.0, -2.2), (0.42, 0.62), 1.3)
     """From the collar bone to behind the ear."""
     shoulders: Ball = Ball((0, -19.6, -3.0), (8.5, 3.0, 4.2), 3.5)
-    brow_fill: Ball = Ball((1.70, 0.95, 5.78), (1.0, 1.2, 0.98), 1.6)
+    brow_fill: Ball = Ball((1.75, 0.5, 5.45), (1.15, 1.6, 1.2), 2.0)
     """Between brow and nose, where the socket would otherwise cut a pit."""
-    inner_canthus: Bone = Bone((1.75, -0.25, 6.75), (2.3, 0.2, 6.9), (0.5, 0.7), 1.1)
+    inner_canthus: Bone = Bone((1.8, -0.5, 7.2), (1.9, 0.35, 7.25), (0.6, 0.5), 2.0)
     """Taken away: the soft trough beside the nose."""
     jaw_hinge: Vector = (0, -1.3, -0.6)
     pads: tuple[Ball, ...] = ()
@@ -104,7 +104,7 @@ class Mouth:
 
     height: float = -5.95
     half_width: float = 2.20
-    corner_lift: float = 0.33
+    corner_lift: float = 0.0
     upper_lip: float = 0.58
     lower_lip: float = 0.74
     upper_fullness: float = 0.36

@@ -31,6 +31,8 @@ SMALLEST = 1e-4
 """Shorter motions of a coordinate are dropped: they cost memory and show nothing."""
 CLOSING_LIFT = 0.08
 """How far (in eyeball radii) wide-open lids rise while they close: their way is longer than a blink's."""
+CROWDED = {("eyeSquintLeft", "cheekSquintLeft"): 0.8, ("cheekSquintLeft", "mouthSmileLeft"): 0.5}
+"""Pairs that both lift the cheek, and the share of the first one's lift that is not added to the other's."""
 OPENING = ("eyeWide", "eyeLookUp", "eyeUpperUp")
 
 
@@ -76,6 +78,9 @@ def build_model(character: Character, production: bool = False) -> FaceModel:
     follow = _Followers(character)
     deltas = np.stack([follow.all_parts(shapes[name]) for name in names])
     products = _blink_products(shapes, character, deformer)
+    for (one, other), share in CROWDED.items():
+        for pair in ((one, other), (swapped(one), swapped(other))):
+            products[pair] = follow.all_parts(Shape(-share * shapes[pair[0]].beside_lids))
     for name, motion in ROUNDED.items():
         products["jawOpen", name] = follow.all_parts(Shape(deformer.mouth(motion)))
     pairs = sorted(products, key=lambda pair: (names.index(pair[0]), names.index(pair[1])))

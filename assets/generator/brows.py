@@ -49,8 +49,8 @@ def lashes(skin: Skin, field: HeadField) -> tuple[Mesh, Ints]:
     margin, inside = skin.vertices[root], skin.vertices[lining]
     outward = unit(margin - np.array(field.anatomy.eye.centre))
     t = np.linspace(0, 1, count)
-    length = mix(0.02, 0.46, smoothstep(0.05, 0.75, t)) * np.clip((1 - t) / 0.22, 0.02, 1) ** 0.8
-    thick = np.clip(length / 0.30, 0.05, 1)[:, None]
+    length = mix(0.02, 0.46, smoothstep(0.05, 0.75, t)) * np.clip(((1 - t) / 0.45) ** 1.4, 0.02, 1)
+    thick = np.clip(length / 0.30, 0.2, 1)[:, None]
     tip = unit(outward + np.array([0.18, 0.55, 0.25]) + np.c_[0.5 * t, 0 * t, 0 * t])
     up = unit(np.cross(unit(np.gradient(margin, axis=0)), outward))
     up *= np.sign(up[:, 1:2])
@@ -60,10 +60,10 @@ def lashes(skin: Skin, field: HeadField) -> tuple[Mesh, Ints]:
 
     rows = [
         inside + outward * 0.02 - up * 0.01,
-        margin + outward * 0.035 + up * 0.05 * thick,
-        margin + outward * (0.035 + 0.025 * thick) + along(0.55) + up * 0.015,
+        margin + outward * 0.035 * thick**0.5 + up * 0.05 * thick,
+        margin + outward * (0.035 * thick**0.5 + 0.025 * thick) + along(0.55) + up * 0.015,
         margin + along(1) + up * 0.25 * length[:, None],
-        margin + outward * 0.02 + along(0.5) - up * 0.03 * thick,
+        margin + outward * 0.02 * thick**0.5 + along(0.5) - up * 0.03 * thick,
     ]
     vertices, _ = strips(rows)
     grid = np.arange(len(vertices)).reshape(len(rows), count)

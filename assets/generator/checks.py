@@ -3,19 +3,26 @@
 Lengths are in centimetres, clearances positive where things do not touch.
 """
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import numpy as np
 from scipy.spatial import cKDTree
 
 from generator.assembly import FaceModel
 from generator.character import MATERIALS, swapped
+from generator.landmarks import FaceMap
 from generator.meshes import face_normals, vertex_normals
 from generator.topology import EYE_LINING, EYE_LOOP, LIP_RINGS, MOUTH_BAG, MOUTH_LOOP
-from generator.vectors import MIRROR, Array, Ints, Mask
+from generator.vectors import MIRROR, Array, Ints, Mask, unit
 
 BARYCENTRIC: Array = np.array(
     [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0.5, 0), (0, 0.5, 0.5), (0.5, 0, 0.5), (1 / 3, 1 / 3, 1 / 3)]
 )
 """Where triangles are probed: corners, edges, centre."""
+
+CHEEK: Array = np.array([3.7, -2.7, 6.4])
+"""On the reference face: what a smile lifts."""
 
 
 def asymmetry(model: FaceModel) -> tuple[float, float]:
@@ -147,6 +154,79 @@ def _depth_over(points: Array, corners: Array) -> float:
     depth = np.where(inside, a[..., 2] + u * (b - a)[..., 2] + v * (c - a)[..., 2], -np.inf).max(1)
     covered = np.isfinite(depth)
     return float((points[covered, 2] - depth[covered]).max(initial=-np.inf))
+
+
+def corner_lift(model: FaceModel) -> float:
+    """Return how much higher the corners of the closed mouth are than its middle."""
+    contact = model.character.vertices[model.character.skin.mouth_rings[0], 1]
+    return float(contact[MOUTH_LOOP // 2] - contact[[0, -1]].mean())
+
+
+def eye_corner_facing(model: FaceModel) -> float:
+    """Return how far the skin between brow, nose and eye faces the front at least: 1 flat, 0 a wall.
+
+    A pit there lies in shadow, and a face with one frowns.
+    """
+    skin, place = model.character.skin, _on_reference(model)
+    x, y, z = place.T
+    region = (x > 0.9) & (x < 2.4) & (y > 0) & (y < 2.4) & (z > 4)
+    region[np.concatenate([skin.eye_rings[k] for k in range(-EYE_LINING, 7)])] = False
+    facing = vertex_normals(model.character.vertices, model.character.triangles)[: len(place), 2]
+    return float(facing[region].min())
+
+
+def cheek_move(model: FaceModel, posed: Array) -> Array:
+    """Return the (3,) mean motion of the left cheek."""
+    place = _on_reference(model)
+    cheek = np.linalg.norm(place - CHEEK, axis=1) < 0.9
+    result: Array = (posed - model.character.vertices)[: len(place)][cheek].mean(0)
+    return result
+
+
+def fold_angles(model: FaceModel, posed: Array, line: Sequence[Sequence[float]]) -> Array:
+    """Return (k - 1,) degrees by which skin turns towards itself across each piece of a line of k points."""
+    place, normals = _on_reference(model), vertex_normals(posed, model.character.triangles)
+    angles = []
+    for start, end in pairwise(np.array(line, float)):
+        along = unit(end - start)
+        beside = [(start + end) / 2 + side * np.array([-along[1], along[0]]) for side in (-0.4, 0.4)]
+        near, far = (np.linalg.norm(place[:, :2] - at, axis=1) + 99 * (place[:, 2] < 2) for at in beside)
+        a, b = near.argmin(), far.argmin()
+        over = unit(posed[b] - posed[a])
+        angles.append(np.degrees(np.arcsin(normals[a] @ over) - np.arcsin(normals[b] @ over)))
+    return np.array(angles)
+
+
+def teeth_gap(model: FaceModel, posed: Array) -> float:
+    """Return how far the middle upper teeth end above the lower ones; negative: they overlap."""
+    upper, lower = (posed[model.character.at(part)] for part in ("teethUpper", "teethLower"))
+    ends = [teeth[np.abs(teeth[:, 0]) < 0.5, 1] for teeth in (upper, lower)]
+    return float(ends[0].min() - ends[1].max())
+
+
+def lash_tail(model: FaceModel, posed: Array) -> float:
+    """Return how far the left lashes stand out beyond the outer corner of the eye."""
+    corner = posed[model.character.skin.eye_rings[0], 0].max()
+    return float(posed[model.character.at("lashL"), 0].max() - corner)
+
+
+def far_share(model: FaceModel, shape: int) -> float:
+    """Return how far skin moves, of the largest move, that is 25 % of the height away from what moves most.
+
+    What moves most is the skin that moves at least half as far as any.  0 for shapes that move no skin.
+    """
+    place = model.character.skin.vertices
+    moves = np.linalg.norm(model.deltas[shape, : len(place)], axis=1)
+    if moves.max() == 0:
+        return 0.0
+    away, _ = cKDTree(place[moves > moves.max() / 2]).query(place)
+    far = np.asarray(away) > 0.25 * np.ptp(place[:, 1])
+    return float(moves[far].max(initial=0) / moves.max())
+
+
+def _on_reference(model: FaceModel) -> Array:
+    """Return where the (n, 3) vertices of the skin lie on the reference face."""
+    return FaceMap(model.character.anatomy).to_reference(model.character.skin.vertices)
 
 
 def lips(model: FaceModel) -> tuple[Ints, Ints]:

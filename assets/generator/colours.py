@@ -84,7 +84,7 @@ def _paint_mouth(colour: Array, skin: Skin, field: HeadField) -> Array:
         corner = smoothstep(0.84, 0.98, np.abs(skin.vertices[ring, 0]) / half_width)
         colour[ring] = mix(colour[ring], lip, (share * (1 - 0.45 * corner))[:, None])
         colour[ring] *= mix(1, CORNER_DARK, corner * (1 - k / LIP_RINGS))[:, None]
-        gloss[ring] = mix(0.33 if k < LIP_RINGS - 1 else 0.40, 0.60, corner)
+        gloss[ring] = mix(0.33 if k < LIP_RINGS - 1 else 0.40, 0.95, corner)
     darkness = {-1: 0.15, -2: 0.5, -3: 0.85}
     for k in range(-MOUTH_BAG, 0):
         ring = skin.both_sides(skin.mouth_rings[k])

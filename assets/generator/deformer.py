@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from generator.anatomy import Anatomy
@@ -12,6 +11,7 @@ from generator.landmarks import REFERENCE, FaceMap
 from generator.lids import crease_heights
 from generator.meshes import vertex_normals
 from generator.openings import lip_curves
+from generator.operators import bilaplacian, mean_of_neighbours
 from generator.skin import LIP_PROFILE, Skin
 from generator.topology import EYE_LOOP, EYE_RINGS, LIP_RINGS, MOUTH_RINGS
 from generator.vectors import MIRROR, Array, Ints, Mask, blob, mix, smoothstep, turn, unit
@@ -65,25 +65,6 @@ class LidMove:
     """(EYE_LOOP,) by how much, radians."""
 
 
-def _bilaplacian(vertices: Array, triangles: Ints) -> sp.csr_matrix:
-    """Return the (n, n) square of the cotangent Laplacian, with clamped cotangents and areas."""
-    n, corners = len(vertices), vertices[triangles]
-    weights = sp.csr_matrix((n, n))
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        u, v = corners[:, i] - corners[:, k], corners[:, j] - corners[:, k]
-        sine = np.maximum(np.linalg.norm(np.cross(u, v), axis=1), 1e-6)
-        cotangent = np.clip((u * v).sum(1) / sine, 0.08, 4) / 2
-        weights = (
-            weights + sp.coo_matrix((cotangent, (triangles[:, i], triangles[:, j])), shape=(n, n)).tocsr()
-        )
-    weights = weights + weights.T
-    laplacian = sp.diags(np.asarray(weights.sum(1)).ravel()) - weights
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    area = np.linalg.norm(cross, axis=1) / 2
-    mass = np.maximum(np.bincount(triangles.ravel(), np.repeat(area / 3, 3), n), 0.004)
-    return (laplacian @ sp.diags(1 / mass) @ laplacian).tocsr()
-
-
 class SkinDeformer:
     """The skin with its ring coordinates and the tools that shapes are made with."""
 
@@ -95,7 +76,8 @@ class SkinDeformer:
         self.map = FaceMap(anatomy)
         self.reference = self.map.to_reference(skin.vertices)
         self.off_centre: Array = np.abs(self.reference[:, 0])
-        self._operator = _bilaplacian(skin.vertices, skin.triangles)
+        self._operator = bilaplacian(skin.vertices, skin.triangles)
+        self._mean_of_neighbours = mean_of_neighbours(n, skin.triangles)
         self.mouth_ring, self.eye_ring = np.full(n, NO_RING), np.full(n, NO_RING)
         self.across, self.side = np.zeros(n), np.zeros(n)
         curves = lip_curves(anatomy.mouth)
@@ -116,6 +98,11 @@ class SkinDeformer:
         self.inside: Mask = self.mouth_ring < 0
         self.depth = np.zeros(n)
         self.depth[self.around_lip] = np.array((*LIP_PROFILE, 1))[self.mouth_ring[self.around_lip]]
+
+    def averaged(self, values: Array) -> Array:
+        """Return (n,) values half way to the mean of their neighbours."""
+        result: Array = (values + self._mean_of_neighbours @ values) / 2
+        return result
 
     def brush(self, centre: Sequence[float], radii: Sequence[float], left_only: bool = False) -> Array:
         """Return an (n,) bell about a point of the reference face, and about its image unless `left_only`."""

@@ -83,7 +83,7 @@ class HeadField:
             d = cut(d, bone(side, furrow), furrow.blend)
         if lids:
             x, y = side[:, 0] - eye.centre[0], points[:, 1] - eye.centre[1]
-            upper = mix(0.62, 1.2, smoothstep(0.8, 2.0, x))
+            upper = 0.62 + 0.58 * smoothstep(0.8, 2.0, x) + 0.28 * smoothstep(-0.2, -1.4, x)
             blend = mix(1.5, upper, smoothstep(-0.7, 0.5, y))
             d = join(d, from_eye - eye.radius * eye.lid_radius, blend)
         return d

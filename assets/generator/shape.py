@@ -18,3 +18,8 @@ class Shape:
     """Part name -> (m, 3) displacement of that part."""
     lid: Array | None = None
     """(n, 3) share of `skin` that moves the left eyelids: what a blink has to take back."""
+
+    @property
+    def beside_lids(self) -> Array:
+        """(n, 3) the rest of `skin`."""
+        return self.skin if self.lid is None else self.skin - self.lid

@@ -19,7 +19,7 @@ LID_SHAPES = {
     "eyeWideLeft": (-0.26, -0.14, 0.0, 0.05),
     "eyeSquintLeft": (0.13, 0.36, 0.0, 0.0),
     "browDownLeft": (0.10, 0.03, 0.0, 0.0),
-    "cheekSquintLeft": (0.05, 0.13, 0.0, 0.0),
+    "cheekSquintLeft": (0.05, 0.20, 0.0, 0.0),
     "mouthSmileLeft": (0.03, 0.07, 0.0, 0.0),
 }
 """(upper, lower, blink, lift) of `SkinDeformer.lids`."""

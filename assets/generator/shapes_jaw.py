@@ -14,6 +14,8 @@ from generator.vectors import Array, Vector, bump, columns, mix, rotation, smoot
 
 OPEN_ANGLE = 17.5
 OPEN_SHIFT: Vector = (0, -0.35, 0.45)
+FUNNEL_OPENS = 0.32
+"""How far mouthFunnel opens the jaw: the teeth part, else they would show clenched in its ring."""
 TONGUE_OUT_OPENS = 0.42
 """How far tongueOut opens the jaw, so that the tongue clears the teeth."""
 
@@ -84,6 +86,7 @@ def jaw_shapes(character: Character, deformer: SkinDeformer) -> dict[str, Shape]
         "jawOpen": open_,
         "jawForward": Shape(forward.skin + seal(deformer, forward.skin, (0.5, 0.3, 0.4)), forward.parts),
         "jawLeft": Shape(aside.skin + seal(deformer, aside.skin, (0.5, 0.5, 0.5)), aside.parts),
+        "mouthFunnel": jaw.moved(OPEN_ANGLE * FUNNEL_OPENS),
         "mouthClose": Shape(seal(deformer, open_.skin, (0.4, 0.30, 0.06))),
         "tongueOut": _tongue_out(character, deformer, jaw),
     }

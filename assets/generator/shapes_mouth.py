@@ -5,9 +5,10 @@ from collections.abc import Callable
 import numpy as np
 
 from generator.deformer import Lips, SkinDeformer
+from generator.folds import FOLDS, folded
 from generator.shapes_eyes import beside_lids
 from generator.topology import LIP_RINGS
-from generator.vectors import Array, bump, columns, mix, smoothstep, unit
+from generator.vectors import Array, bump, columns, mix, smoothstep
 
 Motion = Callable[[Lips], Array]
 WIDE = (6.2, 5.2, 6.5)
@@ -29,7 +30,7 @@ def smile(lip: Lips) -> Array:
     x = lip.across
     corner = left_side(x) ** 1.5
     between, middle_ = bump(x, 0.5, 0.4), bump(x, 0, 0.5)
-    up = 0.70 * left_side(x, 0, 1.06) ** 1.8 - 0.04 * between + 0.02 * middle_
+    up = 0.82 * left_side(x, 0, 1.06) ** 1.8 - 0.04 * between + 0.02 * middle_
     thin = -0.13 * lip.side * lip.depth * lip.height * (between + 0.5 * middle_) * (1 - x**4)
     back = -0.72 * corner**1.4 - 0.10 * between - 0.04 * middle_
     return columns(0.78 * corner, up + thin, back)
@@ -41,7 +42,7 @@ def frown(lip: Lips) -> Array:
     corner = left_side(x) ** 1.5
     arch = 0.10 * (1 - np.abs(x) ** 2) * smoothstep(-0.5, 0.5, x) * (1 - 0.5 * lip.depth)
     out = 0.06 * (lip.side < 0) * lip.depth * bump(x, 0.3, 0.4)
-    return columns(0.10 * corner, -0.85 * corner**1.1 + arch, -0.10 * corner + out)
+    return columns(0.10 * corner, -0.70 * corner**1.1 + arch, -0.10 * corner + out)
 
 
 def dimple(lip: Lips) -> Array:
@@ -54,7 +55,7 @@ def dimple(lip: Lips) -> Array:
 def stretch(lip: Lips) -> Array:
     """Corner out and a little down; the lips thin."""
     x = lip.across
-    up = -0.34 * left_side(x) ** 1.6 - 0.10 * lip.side * lip.depth * bump(x, 0.4, 0.5)
+    up = -0.22 * left_side(x) ** 1.6 - 0.10 * lip.side * lip.depth * bump(x, 0.4, 0.5)
     up += -0.10 * (lip.side < 0) * bump(x, 0.45, 0.35) + 0.06 * (lip.side > 0) * bump(x, 0.45, 0.3)
     back = -0.55 * left_side(x) ** 1.3 - 0.06 * bump(x, 0.4, 0.4)
     return columns(0.85 * left_side(x, -0.2) ** 1.3, up, back)
@@ -105,7 +106,7 @@ def funnel(lip: Lips) -> Array:
     x, side, t = lip.across, lip.side, lip.depth
     a = np.abs(x)
     round_ = np.sqrt(np.clip(1 - a**2.4, 0, 1))
-    open_ = side * np.where(side > 0, 0.36, 0.54) * round_ * mix(1, 0.84, t)
+    open_ = side * 0.12 * round_ * mix(1, 0.84, t)
     return columns(-1.05 * x, -0.12 * a**2 + open_, 0.72 + 0.10 * a - 0.06 * t + 0.10 * round_ * t)
 
 
@@ -125,9 +126,9 @@ def roll_upper(lip: Lips) -> Array:
 
 def shrug_lower(lip: Lips) -> Array:
     """Lower lip pushed up and out by the chin; the upper lip rides on it."""
-    m, low, t = middle(lip.across), lip.side < 0, lip.depth
+    m, low, t = middle(lip.across) ** 2, lip.side < 0, lip.depth
     up = 0.95 * np.where(low, mix(0.34, 0.52, t), mix(0.34, 0.24, t))
-    return columns(0, m * up, m * np.where(low, mix(0.16, 0.26, t), 0.10))
+    return columns(0, m * up, m * np.where(low, mix(0.14, 0.26, t), mix(0.14, 0.10, t)))
 
 
 def shrug_upper(lip: Lips) -> Array:
@@ -165,7 +166,7 @@ MOTIONS: dict[str, tuple[Motion, tuple[float, float, float]]] = {
     "mouthShrugLower": (shrug_lower, (5.4, 4.4, 6.0)),
     "mouthShrugUpper": (shrug_upper, (5.4, 4.4, 6.0)),
     "mouthLeft": (sideways, (6.4, 5.0, 6.5)),
-    "cheekPuff": (puff, (5.4, 4.4, 6.0)),
+    "cheekPuff": (puff, (5.4, 4.0, 6.0)),
 }
 """Shape -> motion of the lips and half axes of the region that gives way."""
 
@@ -182,40 +183,18 @@ BRUSHES: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], tuple[float
         ((1.1, -3.3, 7.5), (0.6, 0.6, 1.0), (0.05, 0.06, 0.02), ""),
     ),
     "noseSneerLeft": (
-        ((1.15, -3.0, 7.4), (0.75, 0.90, 1.3), (0.14, 0.24, 0.03), ""),
-        ((2.1, -2.7, 6.4), (1.1, 1.3, 1.8), (0, 0.36, 0.16), "lips lids"),
+        ((1.15, -3.0, 7.4), (0.75, 0.90, 1.3), (0.14, 0.42, 0.03), ""),
+        ((2.1, -2.7, 6.4), (1.1, 1.3, 1.8), (0, 0.46, 0.16), "lips lids"),
         ((0.55, 0.9, 7.0), (0.6, 1.1, 1.6), (0, -0.16, 0.07), "lids"),
         ((1.6, 2.2, 6.6), (1.2, 0.9, 1.6), (-0.1, -0.24, 0.05), "lids"),
     ),
-    "eyeSquintLeft": (((3.9, -2.3, 5.2), (1.9, 1.0, 3), (0, 0.30, 0.20), "lids"),),
-    "cheekSquintLeft": (((3.9, -2.45, 5.0), (1.9, 1.25, 3.0), (0, 0.62, 0.36), "lids"),),
+    "eyeSquintLeft": (((3.7, -2.6, 5.2), (1.8, 1.3, 3.0), (0, 0.36, 0.18), "lids lips"),),
+    "cheekSquintLeft": (
+        ((3.7, -3.1, 5.2), (1.9, 1.8, 3.0), (0.02, 0.80, 0.16), "lids lips"),
+        ((3.5, -2.9, 5.6), (1.5, 1.2, 2.0), (0.04, 0.0, 0.40), "lids lips"),
+    ),
 }
 """Shape -> (centre, radii, displacement, what the brush keeps off) on the left side."""
-
-
-FOLDS: dict[str, tuple[tuple[tuple[float, float], ...], float, float, float]] = {
-    "mouthSmileLeft": (((1.55, -2.9), (2.35, -3.7), (3.05, -4.8), (3.30, -6.2)), 0.60, 0.08, 0.15),
-}
-"""Shape -> (line in x and y, width, depth of the groove, height of the flesh beside it) on the left side."""
-
-
-def folded(deformer: SkinDeformer, line: Array, width: float, depth: float, height: float) -> Array:
-    """Return the (n, 3) displacement of a soft fold along a line: a groove, and flesh that rolls over it."""
-    place = deformer.reference[:, :2]
-    start, along = line[:-1], np.diff(line, axis=0)
-    share = np.clip(((place[:, None] - start) * along).sum(2) / (along**2).sum(1), 0, 1)
-    away = place[:, None] - start - share[..., None] * along
-    nearest = np.linalg.norm(away, axis=2).argmin(1)
-    every = np.arange(len(place))
-    away, share, along = away[every, nearest], (share + np.arange(len(start)))[every, nearest], along[nearest]
-    across = (away * unit(np.c_[-along[:, 1], along[:, 0]])).sum(1)
-    beyond = np.linalg.norm(away - across[:, None] * unit(np.c_[-along[:, 1], along[:, 0]]), axis=1)
-    share = share / len(start)
-    strength = smoothstep(0, 0.25, share) * smoothstep(1, 0.6, share) * np.exp(-((beyond / width) ** 2))
-    strength = strength * (deformer.reference[:, 2] > 2) * (deformer.vertices[:, 0] > 0)
-    profile = height * bump(across, 1.7 * width, 1.4 * width) - depth * bump(across, 0, width)
-    result: Array = deformer.normals * (strength * profile)[:, None]
-    return result
 
 
 def beside_lips(deformer: SkinDeformer) -> Array:
@@ -226,7 +205,7 @@ def beside_lips(deformer: SkinDeformer) -> Array:
 
 
 def mouth_shapes(deformer: SkinDeformer) -> dict[str, Array]:
-    """Return displacements of the skin by MOTIONS and BRUSHES; chin and puffed cheeks move on both sides."""
+    """Return displacements of the skin by MOTIONS, BRUSHES and FOLDS; chin and cheeks on both sides."""
     shapes = {name: deformer.mouth(motion, reach) for name, (motion, reach) in MOTIONS.items()}
     keep = {"lips": beside_lips(deformer), "lids": beside_lids(deformer)}
     for name, brushes in BRUSHES.items():
@@ -236,8 +215,9 @@ def mouth_shapes(deformer: SkinDeformer) -> dict[str, Array]:
             for region in keep_off.split():
                 strength = strength * keep[region]
             moved += strength[:, None] * np.array(displacement)
-    for name, (line, *form) in FOLDS.items():
-        shapes[name] += folded(deformer, np.array(line), *form) * keep["lips"][:, None]
+    for name, folds in FOLDS.items():
+        for fold in folds:
+            shapes[name] += folded(deformer, fold) * keep["lips"][:, None]
     chin = deformer.brush((0, -8.7, 7.0), (1.7, 1.0, 2.0)) * keep["lips"]
     shapes["mouthShrugLower"] += chin[:, None] * np.array([0, 0.42, 0.12])
     cheeks = deformer.brush((3.7, -4.9, 4.7), (1.9, 1.9, 2.6)) * keep["lips"]

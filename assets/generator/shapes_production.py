@@ -138,7 +138,8 @@ def production_shapes(
     for name in HALVED:
         reach = LIPS_FADE if name.startswith("mouth") else FADE
         left = smoothstep(-reach, reach, deformer.reference[:, 0])[:, None]
-        shapes[name + "Left"] = Shape(arkit[name].skin * left)
+        parts = {part: moved / 2 for part, moved in arkit[name].parts.items()}
+        shapes[name + "Left"] = Shape(arkit[name].skin * left, parts)
     shapes["browLateralLeft"] = Shape(brow_shape(character, deformer, _frown_lines))
     for name, (upper, lower) in LID_PARTS.items():
         lift = 0.03 if upper < 0 else 0.0

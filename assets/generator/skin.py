@@ -24,13 +24,15 @@ from generator.topology import (
     half_grid,
     triangulated,
 )
-from generator.vectors import MIRROR, Array, Ints, Mask, blob, curve, mix, smoothstep, unit
+from generator.vectors import MIRROR, Array, Ints, Mask, beside_line, blob, curve, mix, smoothstep, unit
 
 LIP_PROFILE = (0, 0.10, 0.28, 0.54, 0.80, 1)
 """Place of the lip rings between the contact line (0) and the border of the red (1)."""
 UPPER_FULLNESS = (-0.75, 0.46, 0.95, 1.0, 0.58, 0.06)
 LOWER_FULLNESS = (-0.70, 0.48, 0.96, 1.0, 0.60, 0.04)
 RELAXATIONS = 24
+NASOLABIAL = ((1.65, -2.75), (2.35, -3.6), (2.95, -4.7), (3.2, -5.9))
+"""Where a smile folds, from the wing of the nose to beside the mouth; x and y on the reference face."""
 LIP_ROLL = {4: 0.6, 5: 1.0, 6: 0.72, 7: 0.40, 8: 0.15}
 """How far the mouth rings come forward with a full lip."""
 
@@ -139,7 +141,7 @@ def _middle(half: HalfGrid) -> Mask:
 
 
 def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> None:
-    """Even out the free vertices along the surface; edges at nose and chin pull harder and get denser."""
+    """Even out the free vertices along the surface; edges at nose, fold and chin pull harder, get denser."""
     q = half.quads
     edges = np.concatenate([q[:, [0, 1]], q[:, [1, 2]], q[:, [2, 3]], q[:, [3, 0]]])
     edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], 1), axis=0)
@@ -148,6 +150,10 @@ def _relax(vertices: Array, half: HalfGrid, field: HeadField, middle: Mask) -> N
     centres = FaceMap(field.anatomy).to_reference(centres)
     pull = 1 + 4.0 * blob(centres, (0.55, -2.95, 7.6), (1.2, 1.0, 1.6))
     pull += 1.6 * blob(centres, (0, -9.3, 4.8), (2.8, 1.3, 2.8))
+    _, across, beyond = beside_line(centres[:, :2], np.array(NASOLABIAL))
+    height = centres[:, 1]
+    between = smoothstep(-2.9, -3.9, height) * smoothstep(-5.5, -4.3, height)  # nose and corner are dense
+    pull += 5.0 * np.exp(-((np.hypot(across, beyond) / 0.6) ** 2)) * between * (centres[:, 2] > 2)
     both = np.r_[edges, edges[:, ::-1]]
     weights = sp.coo_matrix((np.r_[pull, pull], both.T), shape=(half.count, half.count)).tocsr()
     total = np.asarray(weights.sum(1)).ravel()

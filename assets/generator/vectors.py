@@ -47,6 +47,24 @@ def blob(points: Array, centre: Sequence[float], radii: Sequence[float]) -> Arra
     return result
 
 
+def beside_line(places: Array, line: Array) -> tuple[Array, Array, Array]:
+    """Return where (n, 2) places lie about the polyline through (k, 2) points.
+
+    The three (n,) arrays are the share of the way along it (0..1), the distance from it (positive on the left
+    of its direction), and how far beyond its ends they lie.
+    """
+    start, along = line[:-1], np.diff(line, axis=0)
+    share = np.clip(((places[:, None] - start) * along).sum(2) / (along**2).sum(1), 0, 1)
+    away = places[:, None] - start - share[..., None] * along
+    nearest = np.linalg.norm(away, axis=2).argmin(1)
+    every = np.arange(len(places))
+    away, share, along = away[every, nearest], share[every, nearest] + nearest, along[nearest]
+    left = unit(np.c_[-along[:, 1], along[:, 0]])
+    across: Array = (away * left).sum(1)
+    beyond: Array = np.linalg.norm(away - across[:, None] * left, axis=1)
+    return share / len(start), across, beyond
+
+
 def rotation(axis: Sequence[float], degrees: float) -> Array:
     """Return the (3, 3) matrix of a right-handed turn about `axis`; it acts on columns."""
     x, y, z = unit(np.array(axis, float))

@@ -68,7 +68,7 @@ class Stage:
         self._markers = MarkerLayer(ctx)
         shown = [
             session.rig.triangles[part.triangles.start : part.triangles.stop]
-            for part in session.rig.parts
+            for part in self._scene.parts
             if material(part, session.rig.colours is not None) is not None
         ]
         self.triangles: Indices = frozen(np.concatenate(shown) if shown else session.rig.triangles, np.int32)

@@ -48,7 +48,7 @@ EYEBALL = Material((0.72, 0.70, 0.68), 0.08, wet=True)
 """The white of an eye; its iris is painted on."""
 
 BY_NAME: tuple[tuple[str, Material | None], ...] = (
-    ("occlusion|lacrimal|tear|eyeblend|eyewet|lash", None),
+    ("occlusion|lacrimal|tear|eyeblend|eyewet|clearshell|lash", None),
     ("brow", Material((0.25, 0.20, 0.17), 0.6)),
     ("iris", Material((0.24, 0.36, 0.42), 0.08, wet=True)),
     ("pupil", Material((0.02, 0.02, 0.02), 0.08, wet=True)),

@@ -14,6 +14,7 @@ from facepin.core.shading import Shading
 from facepin.core.topology import draw_order
 from facepin.gpu.background import Background
 from facepin.gpu.canvas import Canvas
+from facepin.gpu.eyeballs import eyes_apart
 from facepin.gpu.framing import Framing, frame
 from facepin.gpu.kept import Kept
 from facepin.gpu.materials import cull_hidden, material_runs, vertex_albedo
@@ -33,14 +34,17 @@ class Scene:
     def __init__(self, ctx: moderngl.Context, rig: Rig) -> None:
         self.ctx = ctx
         self.rig = rig
-        order = draw_order(rig)
+        look = eyes_apart(rig)
+        self.parts = look.parts
+        """Those of the rig, and eyes that it does not name."""
+        order = draw_order(look)
         self.triangles = order.triangles
         """(t, 3) int32, those of the rig in the order of `indices`."""
-        self.runs = material_runs(rig, order.runs)
+        self.runs = material_runs(look, order.runs)
         self.solid = tuple(run for run in self.runs if run.cutout is None)
         """Those that are not cut out of cards by a texture."""
         self.indices = ctx.buffer(order.triangles)
-        self._albedo_values = vertex_albedo(rig)
+        self._albedo_values = vertex_albedo(look)
         self.albedo = ctx.buffer(self._albedo_values)
         self.towards = ctx.buffer(np.zeros((rig.vertex_count, 4), np.float16))
         places = rig.texture_places
@@ -49,7 +53,7 @@ class Scene:
         self.background = Background(ctx)
         self.kept = Kept()
         """What overlays share."""
-        self._openness: Openness | None = Openness(ctx, rig, order, self.solid, self.indices)
+        self._openness: Openness | None = Openness(ctx, look, order, self.solid, self.indices)
 
     @property
     def refined(self) -> bool:

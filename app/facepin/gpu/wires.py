@@ -17,7 +17,7 @@ class WireLook:
 
     def __init__(self, scene: Scene) -> None:
         rig = scene.rig
-        seen = [part for part in rig.parts if material(part, rig.colours is not None) is not None]
+        seen = [part for part in scene.parts if material(part, rig.colours is not None) is not None]
         edges = outlines(rig, seen)
         self.program = load_program(scene.ctx, "wires")
         self.indices = scene.ctx.buffer(edges.tobytes()) if len(edges) else None

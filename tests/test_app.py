@@ -43,6 +43,7 @@ def chin(app: App) -> int:
 @pytest.mark.parametrize("solver", ["pseudo_inverse", "tikhonov", "transpose", "hybrid"])
 def test_press_on_the_chin_drag_down_release(narrow: Path, solver: str) -> None:
     with running(narrow, solver) as app:
+        app.desk.view.freedom = "space"
         before = app.session.pose
         x, y = app.pixel_of(chin(app))
         app.press(x, y)
@@ -90,6 +91,7 @@ def test_escape_cancels_a_drag() -> None:
 
 def test_pins_hold_while_others_are_dragged_and_delete_removes_the_selected() -> None:
     with running(solver="tikhonov") as app:
+        app.desk.view.freedom = "space"
         first = chin(app)
         x, y = app.pixel_of(first)
         app.drag((x, y), (x, y + 30))
@@ -101,7 +103,8 @@ def test_pins_hold_while_others_are_dragged_and_delete_removes_the_selected() ->
         app.drag((bx, by), (bx, by - 15))
         pins = app.session.pose.pins
         assert len(pins) == 2
-        assert pins[0].goal == goal
+        # Held where it was when the other one was pressed: Tikhonov had brought it near its goal.
+        np.testing.assert_allclose(pins[0].goal, goal, atol=0.01 * app.session.rig.height)
         app.key("delete")
         assert [pin.vertex for pin in app.session.pose.pins] == [pins[0].vertex]
         app.key("z", control=True)
@@ -293,6 +296,7 @@ def test_every_size_of_window_draws(size: tuple[int, int], scale: float) -> None
 
 def test_the_menu_of_a_pin_opens_once_and_changes_the_pin() -> None:
     with running() as app:
+        app.desk.view.freedom = "space"
         x, y = app.pixel_of(chin(app))
         app.drag((x, y), (x, y + 30))
         (pin,) = app.session.pose.pins
@@ -320,6 +324,7 @@ def test_a_pin_that_no_shape_moves_is_pointed_out() -> None:
 
 def test_several_panes_are_dragged_as_one_and_undone_as_one() -> None:
     with running(size=(1600, 900)) as app:
+        app.desk.view.freedom = "space"
         for key in ("tikhonov", "sparse", "tikhonov"):
             app.ask(AddPane(choose(key)))
         app.step(PointerMoved(5, 5), frames=3)

@@ -12,6 +12,7 @@ PACKAGE = Path(__file__).resolve().parent.parent / "app/facepin"
 LAYERS: list[set[str]] = [
     {"__main__"},
     {"commands"},
+    {"solve_commands"},
     {"main_loop", "figures"},
     {"options", "frame"},
     {"actions"},

@@ -31,7 +31,7 @@ def variants(kind: SolverKind) -> list[object]:
 
 
 def test_registry_is_keyed_and_described() -> None:
-    assert list(SOLVERS) == ["pseudo_inverse", "tikhonov", "transpose", "hybrid", "sparse", "bounded"]
+    assert list(SOLVERS) == ["pseudo_inverse", "tikhonov", "transpose", "hybrid", "sparse", "bounded", "hand"]
     for key, kind in SOLVERS.items():
         assert kind.key == key
         assert kind.title and kind.summary.endswith(".")

@@ -55,11 +55,13 @@ def regularised(J: np.ndarray, d: np.ndarray, w0: np.ndarray) -> np.ndarray:
 def simulated(rig: Rig, task: Task, answer: Answer, kept: list[int]) -> np.ndarray:
     """The weights of all frames, (frames, k); `kept` are the coordinates that a pin constrains."""
     B, rest = dense(rig), rig.neutral.astype(np.float64)
-    w, path, rows, goals = np.zeros(B.shape[1]), [np.zeros(B.shape[1])], [], []
+    w, path, blocks = np.zeros(B.shape[1]), [np.zeros(B.shape[1])], []
     for v, tremor in zip(task.vertices, task.tremor, strict=True):
         block = B[3 * v : 3 * v + 3]
         w0, aim = w, rest[v] + block @ w
-        rows, goals = [*rows, block[kept]], [*goals, np.zeros(3)]
+        blocks = [*blocks, block]
+        rows = [each[kept] for each in blocks]
+        goals = [each @ w for each in blocks]  # what is held is held where it is at the press
         for shake in tremor:
             aim[:2] += PULL * (task.wanted[v] - rest[v] - block @ w)[:2]
             goals[-1] = aim - rest[v] + [shake[0], shake[1], 0.0]

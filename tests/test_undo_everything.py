@@ -142,6 +142,9 @@ MAKERS: dict[type, Maker] = {
     requests.SetControl: lambda random, session: requests.SetControl(
         "Control", random_control(random, session)
     ),
+    requests.Tidy: lambda random, _: requests.Tidy(float(random.uniform(0.1, 5))),
+    requests.TakeTidy: lambda *_: requests.TakeTidy(),
+    requests.LeaveTidy: lambda *_: requests.LeaveTidy(),
     requests.CancelEdit: lambda *_: requests.CancelEdit(),
     requests.ShadeAs: lambda random, _: requests.ShadeAs(list(MODES)[random.integers(len(MODES))]),
     requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),

@@ -119,7 +119,7 @@ def _window(options: Namespace) -> None:
         return
     settings = user_config_path("facepin", appauthor=False)
     remembered = read_preferences(settings / "preferences.json")[0]
-    usual = remembered.solver if remembered.solver in SOLVERS else "transpose"
+    usual = remembered.solver if remembered.solver in SOLVERS else "hand"
     keys = options.compare or options.solver or usual
     # Who poses a face wants one that can be made; who compares solvers wants them as they are.
     choices = solver_choices(keys, [], keep_limits=not options.compare)

@@ -1,7 +1,6 @@
-"""The commands without a window: info, solve, render, export."""
+"""The commands without a window: all by name, and info, render and export themselves."""
 
 import json
-import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,21 +10,17 @@ from typing import Any
 import numpy as np
 
 from facepin.core.errors import FacepinError
-from facepin.core.pose import Pose
 from facepin.core.shading import MODES
 from facepin.options import (
     VIEWS,
     add_rig,
-    add_solver,
     first_pose,
     open_with_bar,
     output_path,
     picture_size,
     png_path,
-    solver_choices,
 )
-from facepin.session.solving import PinSolver
-from facepin.solvers.settings import plain_settings
+from facepin.solve_commands import solve, solve_options, tidy, tidy_options
 
 MOST_SUPERSAMPLING = 8
 """How many times larger a picture may be drawn than it becomes."""
@@ -77,59 +72,6 @@ def _info(options: Namespace) -> None:
     print(f"{'parts':10} {len(rig.parts)}: {', '.join(part.name for part in rig.parts)}")
     for line in rig.warnings:
         print(f"{'warning':10} {line}")
-
-
-def _solve_options(parser: ArgumentParser) -> None:
-    add_rig(parser)
-    parser.add_argument("--pins", type=Path, required=True, metavar="FILE", help="pins file (JSON)")
-    add_solver(parser, "transpose")
-    parser.add_argument(
-        "--start", type=Path, metavar="POSE", help="pose to start from (default: the neutral)"
-    )
-    parser.add_argument(
-        "--out",
-        type=output_path,
-        metavar="POSE",
-        help="write the solved pose; with several solvers, one file each",
-    )
-
-
-def _solve(options: Namespace) -> None:
-    from facepin.core.measures import out_of_range
-    from facepin.files.pose_file import check_suffix, write_pose
-
-    choices = solver_choices(options.solver, options.settings, options.limits)
-    if options.out is not None:
-        check_suffix(options.out)
-    rig = open_with_bar(options.rig, options.neutral)
-    start = Pose(np.zeros(rig.shape_count)) if options.start is None else first_pose(rig, options.start, None)
-    pins = first_pose(rig, None, options.pins).pins
-    found = {}
-    failures: list[FacepinError] = []
-    for choice in choices:
-        solver = PinSolver(rig, choice)
-        try:
-            solver.solve(pins, start.weights)  # once to prepare: what is timed is a drag frame
-            solved = solver.solve(pins, start.weights)
-        except FacepinError as error:
-            failures.append(error)
-            if len(failures) == len(choices):
-                raise
-            print(f"facepin: {error}", file=sys.stderr)
-            continue
-        found[choice.kind.key] = {
-            "weights": dict(zip(rig.shape_names, solved.weights.tolist(), strict=True)),
-            "pin_error": solved.pin_error,
-            "out_of_range": out_of_range(solved.weights, rig.limits),
-            "milliseconds": solved.seconds * 1e3,
-            "settings": {**plain_settings(choice.settings), "limits": choice.keep_limits},
-            "notes": dict(solved.notes),
-        }
-        if options.out is not None:
-            several = len(choices) > 1
-            path = options.out.with_stem(f"{options.out.stem}-{choice.kind.key}") if several else options.out
-            write_pose(path, rig, Pose(solved.weights, pins))
-    print(json.dumps({"solvers": found}, indent=2, ensure_ascii=False))
 
 
 def _render_options(parser: ArgumentParser) -> None:
@@ -312,7 +254,8 @@ def _movie(options: Namespace) -> None:
 
 COMMANDS: dict[str, Command] = {
     "info": Command("say what is in a rig", _info_options, _info),
-    "solve": Command("turn pins into weights and print them as JSON", _solve_options, _solve),
+    "solve": Command("turn pins into weights and print them as JSON", solve_options, solve),
+    "tidy": Command("find the fewest shapes that keep a pose as it is", tidy_options, tidy),
     "render": Command("draw one picture of a pose", _render_options, _render),
     "sheet": Command("draw all poses of a folder on one sheet", _sheet_options, _sheet),
     "turntable": Command("draw a pose from all round, animated", _turntable_options, _turntable),

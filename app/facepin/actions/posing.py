@@ -2,7 +2,18 @@
 
 from facepin.desk.desk import Desk
 from facepin.panels.commands import Command
-from facepin.panels.requests import CancelEdit, GoToStep, Request, SetControl
+from facepin.panels.requests import (
+    CancelEdit,
+    GoToStep,
+    LeaveTidy,
+    Request,
+    SetControl,
+    TakeTidy,
+    Tidy,
+)
+from facepin.panels.tidy import LABEL
+from facepin.session.edit import Edit
+from facepin.session.tidying import TOLERANCE, tidied
 
 
 def act(request: Request, desk: Desk) -> bool:
@@ -23,6 +34,20 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.RESET_POSE:
             session.reset()
             desk.say(session.message)
+        case Command.TIDY | Tidy():
+            view, pane = desk.view, session.active
+            session.cancel() if view.tidy is not None else session.settle()
+            view.tidy = request.tolerance if isinstance(request, Tidy) else TOLERANCE
+            pose = session.panes[pane].pose
+            weights = tidied(session.rig, session.control, pose, view.tidy)
+            session.apply(Edit(LABEL, False, weights=weights))
+            desk.say(session.message)
+        case TakeTidy():
+            desk.view.tidy = None
+            session.settle()
+        case LeaveTidy():
+            desk.view.tidy = None
+            session.cancel()
         case SetControl(label, control):
             session.set_control(label, control)
             desk.say("")

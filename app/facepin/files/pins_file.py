@@ -22,8 +22,8 @@ def read_pins(path: Path, rig: Rig) -> tuple[Pin, ...]:
     """Read the pins of a pins file or of a pose file.
 
     A pin has a `vertex` and either a `goal` or a `move` from the neutral; optional are `freedom` ("space" or
-    "screen"), `stiffness` (> 0), for screen pins `axes` (right and up of the camera), `name`, `locked` and
-    `hidden`.
+    "screen"), `stiffness` (> 0), for screen pins `axes` (right and up of the camera), `name`, `locked`,
+    `hidden` and `held` (see `held_vertices`).
 
     Raises
     ------
@@ -34,6 +34,20 @@ def read_pins(path: Path, rig: Rig) -> tuple[Pin, ...]:
     if "pins" not in document:
         document.refuse("pins", "a list of pins")
     return parse_pins(document, rig)
+
+
+def held_vertices(path: Path, rig: Rig) -> frozenset[int]:
+    """Return the vertices of pins that a pins file calls `held`: no hand has them, they hold what is there.
+
+    Raises
+    ------
+    FacepinError
+        As `read_pins`.
+    """
+    entries = parse_json(read_bytes(path), path.name).children("pins")
+    return frozenset(
+        entry.integer("vertex", high=rig.vertex_count - 1) for entry in entries if entry.flag("held", False)
+    )
 
 
 def write_pins(path: Path, pins: tuple[Pin, ...]) -> None:

@@ -25,10 +25,10 @@ class Preferences:
 
     recent: tuple[str, ...] = ()
     """Rigs and scenes opened lately, newest first, absolute paths."""
-    freedom: Freedom = "space"
+    freedom: Freedom = "screen"
     quality: Quality = "auto"
     ui_scale: float = 1.0
-    solver: str = "transpose"
+    solver: str = "hand"
     theme: Theme = "dark"
     habit: Habit = "facepin"
     """Whose mouse and keys the user knows."""

@@ -9,7 +9,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
-from facepin.core.measures import active
+from facepin.core.measures import active, moves, percent
 from facepin.core.pose import Pose
 from facepin.core.shape_motion import movers
 from facepin.desk.desk import Desk
@@ -36,6 +36,7 @@ from facepin.panels.requests import CancelJob, CancelLoading, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import progress_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours
+from facepin.panels.tidy import LABEL, Tidied, tidy_card
 from facepin.panels.vertex_card import vertex_card
 from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
@@ -219,12 +220,29 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
         steps, step = session.steps, session.step
         view.history, wanted = history_window(session.rig, steps, step, *place, scale, view.theme)
         asked.append(wanted)
+    if view.tidy is not None:
+        asked.append(_tidy(desk, view.tidy, place, scale))
     if desk.opener.lost is not None:
         asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
     elif desk.keeper.left and view.recovery.shown:
         rows = [_work_row(leftover) for leftover in desk.keeper.left]
         asked.append(recovery_card(rows, view.recovery, *place, width, view.theme))
     return [request for request in asked if request is not None]
+
+
+def _tidy(desk: Desk, tolerance: float, place: tuple[float, float], scale: float) -> Request | None:
+    """Draw the card of a tidied pose, as long as that is what is shown."""
+    session, stage = desk.session, desk.stage
+    if session is None or stage is None or not session.in_gesture or session.undo_label != LABEL:
+        desk.view.tidy = None
+        return None
+    pane, rig = session.active, session.rig
+    before, after = session.committed.panes[pane].pose, session.panes[pane].pose
+    was, now = (rig.evaluate(session.control.heard(pose.weights)) for pose in (before, after))
+    vertices = [pin.vertex for pin in before.pins] or slice(None)
+    moved = percent(float(moves(now[vertices], was[vertices]).max(initial=0.0)), rig.height)
+    told = Tidied(before.weights, after.weights, moved, len(before.pins))
+    return tidy_card(told, tolerance, *place, scale, desk.view.theme)
 
 
 def _work_row(leftover: Leftover) -> WorkRow:

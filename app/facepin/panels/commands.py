@@ -73,6 +73,12 @@ class Command(Enum):
         "Lists every step by its name; a click goes there, back or forth.",
     )
     RESET_POSE = "Reset the pose", ("Home",), "Edit", "All weights to zero; pins stay on their points."
+    TIDY = (
+        "Tidy the pose…",
+        ("T",),
+        "Edit",
+        "Shows the fewest shapes that keep every pin, or without pins the face, as it is; then you decide.",
+    )
     SYMMETRY = (
         "Symmetry",
         ("M",),

@@ -75,7 +75,7 @@ def menu_bar(
         close_on_escape()
         asked = _items(view, session, Command.UNDO, Command.REDO, Command.HISTORY) or asked
         imgui.separator()
-        asked = _items(view, session, Command.RESET_POSE) or asked
+        asked = _items(view, session, Command.RESET_POSE, Command.TIDY) or asked
         imgui.separator()
         mirrored = (Command.SYMMETRY, Command.FLIP_POSE, Command.MIRROR_LEFT, Command.MIRROR_RIGHT)
         asked = _items(view, session, *mirrored) or asked

@@ -91,6 +91,24 @@ class SelectPins:
 
 
 @dataclass(frozen=True)
+class Tidy:
+    """Show the pose with fewer shapes."""
+
+    tolerance: float
+    """Per cent of the face height that what is held may move by."""
+
+
+@dataclass(frozen=True)
+class TakeTidy:
+    """Take the pose that is shown."""
+
+
+@dataclass(frozen=True)
+class LeaveTidy:
+    """Leave the pose as it was."""
+
+
+@dataclass(frozen=True)
 class GoToStep:
     """Undo or redo to one of the steps of the history."""
 
@@ -165,6 +183,9 @@ Request = (
     | ClosePane
     | KeepPane
     | RandomReference
+    | Tidy
+    | TakeTidy
+    | LeaveTidy
     | GoToStep
     | RestoreWork
     | DiscardWork

@@ -108,7 +108,7 @@ class View:
     """The library panel was asked for just now."""
     filmstrip: bool = False
     """Whether the filmstrip is open."""
-    freedom: Freedom = "space"
+    freedom: Freedom = "screen"
     """What new pins constrain."""
     symmetric: bool = False
     """Whether pins and sliders move their twins on the other side."""
@@ -131,6 +131,8 @@ class View:
     theme_name: ThemeName = "dark"
     habit: Habit = "facepin"
     """Whose mouse and keys the user knows."""
+    tidy: float | None = None
+    """Tolerance in per cent of the face height while a tidied pose is shown."""
     palette: PaletteView | None = None
     lately: tuple[str, ...] = ()
     """Titles of what was chosen in the command palette, newest first."""

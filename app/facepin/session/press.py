@@ -11,8 +11,8 @@ from facepin.core.rig import Rig
 from facepin.session.solving import snapped
 
 MET = 0.1
-"""A pin that lags by less than this share of its way is where the hand put it: taken again, it goes on from where
-that drag began, so that going back ends there exactly."""
+"""A pin that lags by less than this share of its way is where the hand put it: taken again, it goes on from
+where that drag began, so that going back ends there exactly."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,7 @@ class Press:
     """The same pins with goals where this pane's vertices were."""
 
     def pulled(self, pins: tuple[Pin, ...]) -> tuple[Pin, ...]:
-        """Return the pins as this pane should solve them: moved from its own places as the hand has moved them.
+        """Return the pins as this pane should solve them: moved from its places as by the hand.
 
         `pins` are the ones of the press, their goals moved.
         """
@@ -46,7 +46,7 @@ class Begun:
 
     presses: tuple[Press, ...]
     snap: Press | None
-    """Turns the pins as the tool moves them into those that began where their vertices were, if they should."""
+    """Makes pins that began where their vertices were of those that the tool moves, if they should."""
 
     def shown(self, pins: tuple[Pin, ...]) -> tuple[Pin, ...]:
         """Return the pins that the panes share from now on, for pins as the tool has moved them."""

@@ -376,7 +376,7 @@ class Session:
         self.message = f"{names} {'is' if len(broken) == 1 else 'are'} locked" if names else ""
 
     def _dragged(self, before: Work, pins: tuple[Pin, ...]) -> tuple[Pane, ...]:
-        """Return the panes solved for pins that were moved; where one of several solvers fails, its weights stay.
+        """Return the panes solved for moved pins; where one of several solvers fails, its weights stay.
 
         Raises
         ------
@@ -387,13 +387,13 @@ class Session:
         pins = begun.shown(pins)
         dragged: list[Pane] = []
         failures: list[FacepinError] = []
-        for at, (pane, press) in enumerate(zip(before.panes, begun.presses, strict=True)):
+        for at, (pane, start) in enumerate(zip(before.panes, begun.presses, strict=True)):
             try:
-                dragged.append(self._solve(at, pane, press, pins))
+                dragged.append(self._solve(at, pane, start, pins))
             except FacepinError as error:
                 failures.append(error)
                 kept = self.panes[at].pose if len(self.panes) == len(before.panes) else pane.pose
-                dragged.append(replace(pane, pose=kept.with_pins(pins), began=press.pose, solved=None))
+                dragged.append(replace(pane, pose=kept.with_pins(pins), began=start.pose, solved=None))
         if len(failures) == len(before.panes):
             raise failures[0]
         self.message = str(failures[0]) if failures else ""
@@ -429,7 +429,7 @@ class Session:
             self.message = str(error)
             return chosen
 
-    def _solve(self, at: int, pane: Pane, press: Press, pins: tuple[Pin, ...]) -> Pane:
+    def _solve(self, at: int, pane: Pane, start: Press, pins: tuple[Pin, ...]) -> Pane:
         """Return a pane with its weights carried towards its pins."""
         control = self._history.current.control
         solver = self._solvers.get((at, pane.choice, control))
@@ -437,16 +437,16 @@ class Session:
             if len(self._solvers) >= 4 * MOST_PANES:  # a setting that is being slid leaves a trail
                 self._solvers.clear()
             solver = self._solvers[at, pane.choice, control] = PinSolver(self.rig, pane.choice, control)
-        weights, pulled = press.pose.weights, press.pulled(pins)
+        weights, pulled = start.pose.weights, start.pulled(pins)
         if pane.choice.kind.afresh:
             weights, pulled = pane.hand, pins
         if control.held.any():  # a shape may have been locked after the weights that the solver starts from
             weights = np.where(control.held, pane.pose.weights, weights)
-        solved = solver.solve(pulled, weights, grabbed(press.pose.pins, pins))
+        solved = solver.solve(pulled, weights, grabbed(start.pose.pins, pins))
         largest = float(np.abs(solved.weights).max(initial=0.0))
         if largest > LARGEST_WEIGHT:  # it could not be saved
             raise FacepinError(
                 f"{pane.choice.kind.title} gave a weight of {largest:.0e}, allowed are {LARGEST_WEIGHT:.0e}"
             )
-        pose = press.pose.with_weights(solved.weights).with_pins(pins)
-        return replace(pane, pose=pose, began=press.pose, solved=solved)
+        pose = start.pose.with_weights(solved.weights).with_pins(pins)
+        return replace(pane, pose=pose, began=start.pose, solved=solved)

@@ -4,18 +4,18 @@ Minimises over x (k,), the change of the weights,
 
     Σ κᵢ ρ(bᵢ - Kᵢ x) + Σ max(cⱼ⁺ xⱼ, -cⱼ⁻ xⱼ) + ½ Σ qⱼ xⱼ²,   l ≤ x ≤ u,
 
-where the rows K (r, k) come in groups, ρ(r) = |r| - δ/2 beyond δ and |r|² / 2δ within: a pull of force κ at
-most, whose direction and not whose length counts.  A one-sided row pulls only while b - K x > 0.
+where the rows K (r, k) come in groups, ρ(r) = |r| - δ/2 beyond δ and |r|² / 2δ within: a pull of force κ
+at most, whose direction and not whose length counts.  A one-sided row pulls only while b - K x > 0.
 
-It is solved for the forces y (r,).  A shape answers to the work that forces do along it, g = Kᵀ y, on its own:
+It is solved for the forces y (r,).  A shape answers to the work that forces do along it, g = Kᵀ y, alone:
 
     xⱼ = clip((gⱼ - cⱼ⁺)₊ / qⱼ - (-gⱼ - cⱼ⁻)₊ / qⱼ, lⱼ, uⱼ).
 
-This is the paper's transposition w = Jᵀ m (Eq. 6 and 7) with forces for m and with a price, a spring and a stop
-at every shape; what is looked for are the forces that are in balance with what the pins then miss.  They are
-the maximum of a concave function of as many numbers as there are rows, two or three for a pin, however many
-shapes there are.  Newton's method with an active set finds it in a few steps, from the last frame's forces in
-one or two.
+This is the paper's transposition w = Jᵀ m (Eq. 6 and 7) with forces for m and with a price, a spring and
+a stop at every shape; what is looked for are the forces that are in balance with what the pins then miss.
+They are the maximum of a concave function of as many numbers as there are rows, two or three for a pin,
+however many shapes there are.  Newton's method with an active set finds it in a few steps, from the last
+frame's forces in one or two.
 """
 
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ LEAST_STEP = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Springs:
-    """How shapes resist being changed, all (k,) but in other units than weights' own: forces are pure numbers."""
+    """How shapes resist being changed.  Forces are pure numbers, so work is a length; all (k,)."""
 
     raising: Floats
     """c⁺ ≥ 0, lengths per unit of weight: the work it takes to raise a weight at all."""
@@ -48,7 +48,7 @@ class Springs:
     """u ≥ 0"""
 
     def answer(self, work: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        """Return the changes x (k,) for the work g (k,) along each shape, and which of them are free to move."""
+        """Return the changes x (k,) for the work g (k,) along each shape, and which are free to move."""
         wanted = (
             np.maximum(work - self.raising, 0.0) - np.maximum(-work - self.lowering, 0.0)
         ) / self.stiffness
@@ -191,8 +191,8 @@ class _Problem:
     def _newton(self, here: _State) -> Floats:
         """Solve for the change of forces at which all conditions hold, were they linear.
 
-        A pull that misses less than its slack is a spring, y = κ (b - K x) / δ; one that misses more has its
-        full force, y = κ r / |r|, and turns with r.
+        A pull that misses less than its slack is a spring, y = κ (b - K x) / δ; one that misses more has
+        its full force, y = κ r / |r|, and turns with r.
         """
         pulls = self._pulls
         missing = self._wanted - pulls.rows @ here.change
@@ -200,7 +200,7 @@ class _Problem:
         matrix = yielding.copy()
         matrix.flat[:: len(matrix) + 1] += self._damping
         right = missing - self._damping * here.forces
-        # Where each group would go on its own tells whether it has its full force, none, or something between.
+        # Where each group would go alone tells whether it has its full force, none, or something between.
         alone = here.forces + right / matrix.diagonal()
         lengths = self._lengths(missing)
         for group in np.flatnonzero((self._lengths(alone) > pulls.strengths) | pulls.one_sided):

@@ -28,8 +28,8 @@ OPPOSED, FULLY_USED, OPPOSITION = -0.3, 0.1, 3.0
 """A shape costs up to `OPPOSITION` times more while one with a likeness below `OPPOSED` is in use, fully so
 from a weight of `FULLY_USED` on."""
 ALLOWED = 0.013
-"""Far motion that is not minded, as a share of the face height: where all that moves a point moves what is far
-still more, the point is stiff, but not dead."""
+"""Far motion that is not minded, as a share of the face height: where all that moves a point moves what is
+far still more, the point is stiff, but not dead."""
 NEARLY = 2e-4
 """How much more far motion than agreed is taken for none, as a share of the face height."""
 MOST_CUTS = 24
@@ -52,20 +52,20 @@ class HandSettings:
     )
     along: float = setting(
         0.4,
-        "How far the rest of the face may go along, as a share of the way of the pin in the hand: less leaves the "
-        "rest alone, more follows closer; 3 lets it go.",
+        "How far the rest of the face may go along, as a share of the way of the pin: less leaves it alone, "
+        "more lets the pin follow closer; 3 lets all go along.",
         low=0.0,
         high=FREE,
     )
 
 
 def prepare(system: PinSystem, settings: HandSettings) -> Solve:
-    """w = w0 + x, x = argmin Σ κ ρ(m - J x) + Σ max(c⁺ x, -c⁻ x) + ½ Σ q x², far motion ≤ `along` × the pin's.
+    """w = w0 + x, x = argmin Σ κ ρ(m - J x) + Σ max(c⁺ x, -c⁻ x) + ½ Σ q x², far motion ≤ θ × the pin's.
 
-    m is the way of the mouse since the press, 0 for pins that are held.  ρ is a distance and not its square:
-    the hand pulls with force 1 however far it is away.  So a shape enters by how well it suits the pull and
-    not by the length of the drag; the pin arrives wherever shapes that suit it can carry it; and where none
-    can, it goes slack and pulling further changes nothing.
+    θ is the setting `along`.  m is the way of the mouse since the press, 0 for pins that are held.  ρ is a
+    distance and not its square: the hand pulls with force 1 however far it is away.  So a shape enters by how
+    well it suits the pull and not by the length of the drag; the pin arrives wherever shapes that suit it can
+    carry it; and where none can, it goes slack and pulling further changes nothing.
 
     With s the largest move of a shape and J its row in the hand, `price` is paid per unit of s in relation
     to the best |J| / s there is: no point of the face is too dear to be moved.  The spring q makes the answer
@@ -77,8 +77,8 @@ def prepare(system: PinSystem, settings: HandSettings) -> Solve:
     face height.  The places that come to their bound are found one after the other, each as a further row
     that pulls back, one-sided.
 
-    Notes: `steps` of the search for the forces; `gap`, how much is left to gain; `held_back`, the force (0 to 1)
-    that keeps the pin from moving what is far.
+    Notes: `steps` of the search for the forces; `gap`, how much is left to gain; `held_back`, the force (0 to
+    1) that keeps the pin from moving what is far.
     """
     return _Hand(system, settings).solve
 
@@ -121,7 +121,7 @@ class _Hand:
         return Solution(weights, {"steps": float(steps), "gap": found.gap, "held_back": held_back})
 
     def _priced(self, start: Floats) -> Springs:
-        """Return what it costs to change each weight from `start` (k,), whatever the direction of the pull."""
+        """Return what it costs to change each weight from `start` (k,), whatever the pull's direction."""
         system, grasp = self._system, self._grasp
         unit = system.scale**0.5
         sizes = np.full(len(start), unit) if system.sizes is None else system.sizes
@@ -145,13 +145,13 @@ class _Hand:
         )
 
     def _pull(self, wanted: Floats) -> Floats:
-        """Return the full forces of the pins in the hand, (r,): each as long as its strength, 0 for the others."""
+        """Return the full forces of the pins in the hand, (r,), as long as they are strong; else 0."""
         lengths = np.sqrt(np.bincount(self._pin, wanted**2, len(self._strengths)))[self._pin]
         full = np.divide(wanted, lengths, out=np.zeros_like(wanted), where=lengths > 0)
         return np.where(self._in_hand, full * self._strengths[self._pin], 0.0)
 
     def _directed(self, pull: Floats, wanted: Floats) -> tuple[Springs, float]:
-        """Return the springs for one direction of the pull, and to which share of it shapes that suit it reach."""
+        """Return the springs for one direction of the pull, and the share of it that shapes can reach."""
         springs, work = self._springs, pull @ self._rows
         springs = Springs(
             springs.raising + BACK * np.maximum(-work, 0.0),
@@ -215,12 +215,12 @@ class _Rest:
         self.slack = FAR_SLACK * grasp.height
 
     def share(self, pull: Floats, rows: Floats) -> Floats:
-        """Return how much more the rest may move per weight (k,): what the pins gain in the direction of the pull."""
+        """Return how much further the rest may go per weight (k,): its share of what the pins gain."""
         share: Floats = self._along / self._hands * (pull @ rows)
         return share
 
     def broken(self, change: Floats, share: Floats) -> Floats | None:
-        """Return the row (k,) that pulls back the place that goes furthest beyond what is allowed, if one does."""
+        """Return the row (k,) that pulls back the place that goes furthest too far, if one does."""
         if not len(self._places):
             return None
         moves = (self._flat @ change).reshape(-1, 3)

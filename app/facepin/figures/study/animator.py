@@ -15,10 +15,11 @@ import numpy as np
 
 from facepin.core import measures
 from facepin.core.arrays import Floats, Points
+from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
-from facepin.core.pose import FRONT_AXES, Freedom, Pin, as_vector
+from facepin.core.pose import FRONT_AXES, Freedom, Pin, Pose, as_vector
 from facepin.core.rig import Rig
-from facepin.session.solving import PinSolver, SolverChoice
+from facepin.session.solving import PinSolver, SolverChoice, snapped
 
 FRAMES = 20
 """Frames that every pin is dragged for."""
@@ -134,7 +135,7 @@ def most_moved(rig: Rig, wanted: Points, count: int) -> tuple[int, ...]:
 
 def animate(rig: Rig, task: Task, choice: SolverChoice, freedom: Freedom) -> Outcome:
     """Let the animator make the reference pose with one solver, from the neutral."""
-    solver = PinSolver(rig, choice)
+    solver, free = PinSolver(rig, choice), ShapeControl.of(rig)
     weights = by_hand = np.zeros(rig.shape_count)
     held: tuple[Pin, ...] = ()
     path, times = [weights], []
@@ -144,13 +145,15 @@ def animate(rig: Rig, task: Task, choice: SolverChoice, freedom: Freedom) -> Out
         rows, rest = rig.rows_at([vertex]), rig.neutral[vertex].astype(np.float64)
         start = by_hand if choice.kind.afresh else weights
         at = rows @ rig.amounts(weights) + rest
+        if not choice.kind.afresh:  # what is held at a press is held where it is
+            held = snapped(rig, Pose(weights, held), free).pins
         aim, pin = at.copy(), Pin(vertex, as_vector(at), freedom, FRONT_AXES)
         for shake in tremor:
             aim[:2] = np.clip(aim[:2] + PULL * (task.wanted[vertex, :2] - at[:2]), lowest, highest)
             pin = replace(pin, goal=as_vector(aim + np.append(shake, 0.0)))
             # A solver that fails leaves the face as it is, here as in the window.
             with suppress(FacepinError):
-                solved = solver.solve((*held, pin), start)
+                solved = solver.solve((*held, pin), start, frozenset({vertex}))
                 weights = solved.weights
                 times.append(solved.seconds)
             at = rows @ rig.amounts(weights) + rest

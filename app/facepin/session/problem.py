@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from facepin.core.answering import answering
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.geodesic import shape_locality
@@ -131,6 +132,7 @@ def _grasp(rig: Rig, pins: tuple[Pin, ...], grabbed: Collection[int], heard: Flo
         height=rig.height,
         far=rig.slopes(rows.reshape(-1, rows.shape[2]), heard).reshape(-1, 3, rig.shape_count),
         likeness=sentinels.likeness,
+        answers=answering(rig, grabbed),
     )
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from facepin.core.answering import answering
 from facepin.core.arrays import Floats
 from facepin.core.pose import FRONT_AXES, Pin, as_vector, pin_rows
 from facepin.core.rig import Rig
@@ -25,6 +26,8 @@ class Reach:
         none = np.zeros(rig.shape_count)
         self._rows = rig.slopes(pin_rows(rig, (pin,)), none)
         squares = np.einsum("ij,ij->j", self._rows, self._rows)
+        # Eyes and tongue are none of the skin's business: what they would do to it is not within its reach.
+        self._rows = np.where(answering(rig, [vertex]), self._rows, 0.0)
         system = PinSystem(self._rows, rig.limits, ties=rig.ties)
         self._minimise = prepare_tied(system, RIDGE * float(squares.max(initial=0.0)))
         self._start, self._price = none, Price(none, none, none)

@@ -227,7 +227,7 @@ def test_the_rest_goes_along_as_far_as_it_may(ict_rig: Rig) -> None:
         moved = np.linalg.norm(ict_rig.evaluate(weights) - ict_rig.neutral, axis=1)
         return float(moved[away].max()) / ict_rig.height
 
-    assert far(strict) < 0.013 + 0.2 * 0.03 + 0.003
+    assert far(strict) < 0.015 + 0.2 * 0.03 + 0.003
     assert far(free) > far(strict)
 
 

@@ -8,7 +8,7 @@ from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Points
 
-CELL = 0.045
+CELL = 0.035
 """Edge of the cells of space that have one place each, as a share of the face height."""
 PER_SHAPE = 3
 """Places in which a single shape is looked at, those that it moves most."""

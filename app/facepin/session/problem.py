@@ -15,7 +15,7 @@ from facepin.core.pose import Pin, pin_rows
 from facepin.core.rig import Rig
 from facepin.solvers.interface import Grasp, PinSystem
 
-FAR = 0.25
+FAR = 0.24
 """What is further from every pin in the hand than this share of the face height should not go along."""
 
 

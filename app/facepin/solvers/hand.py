@@ -16,7 +16,7 @@ REST = 1.0
 """Force of what should not go along."""
 HELD = 0.5
 """Force of a pin that is held, next to one in the hand."""
-RIDGE = 0.045
+RIDGE = 0.05
 """Spring of every shape: the share of its price's unit that a whole weight adds to the price."""
 LEAST = 1 / 3
 """A shape is priced as if it moved the face by at least this share of what shapes usually do."""
@@ -27,7 +27,7 @@ RETURN = 0.3
 OPPOSED, FULLY_USED, OPPOSITION = -0.3, 0.1, 3.0
 """A shape costs up to `OPPOSITION` times more while one with a likeness below `OPPOSED` is in use, fully so
 from a weight of `FULLY_USED` on."""
-ALLOWED = 0.013
+ALLOWED = 0.015
 """Far motion that is not minded, as a share of the face height: where all that moves a point moves what is
 far still more, the point is stiff, but not dead."""
 NEARLY = 2e-4
@@ -51,7 +51,7 @@ class HandSettings:
         high=1.0,
     )
     along: float = setting(
-        0.4,
+        0.5,
         "How far the rest of the face may go along, as a share of the way of the pin: less leaves it alone, "
         "more lets the pin follow closer; 3 lets all go along.",
         low=0.0,
@@ -73,7 +73,7 @@ def prepare(system: PinSystem, settings: HandSettings) -> Solve:
     does what undoes a shape in use; going back costs less.  The pull is cut where shapes that suit it end:
     beyond, only its direction would still change something.
 
-    Far motion is the largest of any place far away (`Grasp.far`), and may exceed its share by 1.3 % of the
+    Far motion is the largest of any place far away (`Grasp.far`), and may exceed its share by 1.5 % of the
     face height.  The places that come to their bound are found one after the other, each as a further row
     that pulls back, one-sided.
 

@@ -89,10 +89,12 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
         assert saved["panes"][0]["weights"]["jawOpen"] > 0.1
         assert len(saved["pins"]) == 1
         hand.do("key", "ctrl+z")
+        assert _wait_for(lambda: hand.do("search", "--name", r"\* - Facepin$")), "undone, so not as saved"
         undone = _save(hand, tmp_path / "undone.facepin")
         assert not undone["panes"][0]["weights"]
         assert not undone["pins"]
         hand.do("key", "ctrl+shift+z")
+        assert _wait_for(lambda: hand.do("search", "--name", r"\* - Facepin$")), "redone, so not as saved"
         redone = _save(hand, tmp_path / "redone.facepin")
         assert redone["panes"] == saved["panes"]
         hand.do("key", "ctrl+q")

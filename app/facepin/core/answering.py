@@ -29,9 +29,9 @@ def answering(rig: Rig, vertices: Collection[int]) -> Flags:
     """Return which shapes (k,) may follow a hand that holds some vertices.
 
     Shapes of gaze and tongue move lids, lips and chin along, and skin must not be got by them: geometry
-    cannot tell (the eyeballs of some faces do not move at all), so names do.  Where they are what moves a point most
-    it is an eye's or a tongue's; there they answer, and of the others only those that are much of that part
-    too, as the jaw is of the tongue.  All shapes answer where else none would move anything.
+    cannot tell (the eyeballs of some faces do not move at all), so names do.  Where they are what moves a
+    point most it is an eye's or a tongue's; there they answer, and of the others only those that are much of
+    that part too, as the jaw is of the tongue.  All shapes answer where else none would move anything.
     """
     gaze, tongue = gaze_shapes(rig), tongue_shapes(rig)
     special = gaze | tongue

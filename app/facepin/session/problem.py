@@ -87,8 +87,8 @@ class PinProblem:
             self._locality = shape_locality(rig, vertices, reach, control.heard(start))
         self._grasp = None if grabbed is None else _grasp(rig, pins, grabbed, control.heard(start))
 
-    def linear_at(self, weights: Floats) -> LinearProblem:
-        """Return the problem that is exact at a pose (k,)."""
+    def linear_at(self, weights: Floats, forces: Floats | None = None) -> LinearProblem:
+        """Return the problem that is exact at a pose (k,), near an answer with forces (r,) on the rows."""
         rig, control, ties = self._rig, self._control, self._control.ties
         heard = control.heard(weights)
         slopes = rig.slopes(self.rows, heard)
@@ -103,7 +103,9 @@ class PinProblem:
         locality = None if locality is None else locality[free]
         guess = weights[free]
         grasp = None if self._grasp is None else _of_free(self._grasp, free)
-        system = PinSystem(slopes[:, free], limits, rig.scale, sizes[free], locality, ties, guess, grasp)
+        system = PinSystem(
+            slopes[:, free], limits, rig.scale, sizes[free], locality, ties, guess, forces, grasp
+        )
         return LinearProblem(system, free, self.rows @ rig.amounts(heard) - system.rows @ heard[free])
 
     def amounts(self, weights: Floats) -> Floats:

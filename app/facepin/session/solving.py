@@ -15,7 +15,7 @@ from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.session.problem import LinearProblem, PinProblem
 from facepin.solvers import SOLVERS
-from facepin.solvers.interface import Solve, SolverKind
+from facepin.solvers.interface import Solution, Solve, SolverKind
 
 LARGEST_AMOUNT = LARGEST_WEIGHT**2
 """Of a shape or a combination in a solver's answer: more is beyond what can be drawn."""
@@ -97,13 +97,13 @@ class PinSolver:
         try:
             prepared = self._prepare(pins, start, grabbed)
             began = perf_counter()
-            weights, notes = prepared.answer(displacement, start)
+            weights, solution = prepared.answer(displacement, start)
             if (kind.afresh or kind.grasps) and prepared.problem.curved:
                 # The start may be far from the answer, and the face another one there.
                 for _ in range(SECOND_LOOKS):
-                    again = self._linearised(prepared.problem, weights)
+                    again = self._linearised(prepared.problem, weights, solution.forces)
                     before = weights
-                    weights, notes = again.answer(displacement, start)
+                    weights, solution = again.answer(displacement, start)
                     if np.abs(weights - before).max(initial=0.0) <= SETTLED:
                         break
         except np.linalg.LinAlgError as error:
@@ -112,7 +112,7 @@ class PinSolver:
             weights = self._control.clipped(weights, start)
         seconds = perf_counter() - began
         missing = prepared.problem.moves(weights) - displacement
-        return Solved(frozen(weights, np.float64), _mean_length(pins, missing), seconds, notes)
+        return Solved(frozen(weights, np.float64), _mean_length(pins, missing), seconds, solution.notes)
 
     def _prepare(self, pins: tuple[Pin, ...], start: Floats, grabbed: frozenset[int] | None) -> "_Prepared":
         """Return the solver for pins at these places; goals may differ from call to call."""
@@ -139,8 +139,8 @@ class PinSolver:
             self._start is not None and np.array_equal(start, self._start)
         )
 
-    def _linearised(self, problem: PinProblem, weights: Floats) -> "_Prepared":
-        linear = problem.linear_at(weights)
+    def _linearised(self, problem: PinProblem, weights: Floats, forces: Floats | None = None) -> "_Prepared":
+        linear = problem.linear_at(weights, forces)
         solve = self.choice.kind.prepare(linear.system, self.choice.settings)
         return _Prepared(problem, linear, solve, self.choice.kind.title)
 
@@ -155,8 +155,8 @@ class _Prepared:
     title: str
     """Of the solver."""
 
-    def answer(self, displacement: Floats, start: Floats) -> tuple[Floats, Mapping[str, float]]:
-        """Return weights (k,), and what the solver notes."""
+    def answer(self, displacement: Floats, start: Floats) -> tuple[Floats, Solution]:
+        """Return weights (k,), and the solver's answer for the free shapes."""
         solution = self.solve(self.linear.displacement(displacement), self.linear.taken(start))
         if not np.isfinite(solution.weights).all():
             raise FacepinError(f"{self.title} gave weights that are not finite")
@@ -165,7 +165,7 @@ class _Prepared:
         if largest > LARGEST_AMOUNT:
             # Products of weights grow faster than weights: what can't be drawn must not become the pose.
             raise FacepinError(f"{self.title} moves shapes {largest:.0e} times as far as they go")
-        return weights, solution.notes
+        return weights, solution
 
 
 def _mean_length(pins: tuple[Pin, ...], missing: Floats) -> float:

@@ -19,7 +19,7 @@ INKS: dict[str, Ink] = {
     "hybrid": Ink("#cc79a7", "D"),
     "sparse": Ink("#009e73", "v"),
     "bounded": Ink("#56b4e9", "P"),
-    "hand": Ink("#000000", "*"),
+    "hand": Ink("#999933", "*"),
 }
 """By solver key.  Okabe and Ito's colours, which remain different for colour-blind eyes."""
 

@@ -104,10 +104,10 @@ def balance(pulls: Pulls, springs: Springs, wanted: Floats, guess: Floats) -> Ba
     """
     problem = _Problem(pulls, springs, wanted)
     here = problem.state(problem.projected(guess))
-    scale = problem.objective(np.zeros(len(springs.low))) or 1.0
+    scale = problem.pulled(problem.missing(np.zeros(len(springs.low)))) or 1.0
     steps = 0
     while True:
-        gap = (problem.objective(here.change) - here.value) / scale
+        gap = (here.cost + problem.pulled(here.missing) - here.value) / scale
         if gap <= TOLERANCE or steps == MOST_STEPS:
             break
         steps += 1
@@ -125,6 +125,9 @@ class _State:
     """Of the dual objective."""
     change: Floats
     free: NDArray[np.bool_]
+    missing: Floats
+    """b - K x (r,)"""
+    cost: float
 
 
 class _Problem:
@@ -141,19 +144,24 @@ class _Problem:
 
     def state(self, forces: Floats) -> _State:
         """Evaluate the dual objective, b·y - Σ δ|y|²/2κ - Σ φ*(g)."""
-        work = forces @ self._pulls.rows
-        change, free = self._springs.answer(work)
-        value = self._wanted @ forces - 0.5 * (self._damping * forces) @ forces
-        return _State(forces, float(value - work @ change) + self._springs.cost(change), change, free)
+        change, free = self._springs.answer(forces @ self._pulls.rows)
+        missing, cost = self.missing(change), self._springs.cost(change)
+        value = float(forces @ (missing - 0.5 * self._damping * forces)) + cost
+        return _State(forces, value, change, free, missing, cost)
 
-    def objective(self, change: Floats) -> float:
-        """Evaluate the primal objective."""
+    def missing(self, change: Floats) -> Floats:
+        """Return what the rows miss, b - K x (r,)."""
+        missing: Floats = self._wanted - self._pulls.rows @ change
+        return missing
+
+    def pulled(self, missing: Floats) -> float:
+        """Return Σ κ ρ(r) for what rows miss (r,); a one-sided row with more than it wants misses nothing."""
         pulls = self._pulls
-        lengths = self._lengths(self._missing(change))
+        lengths = self._lengths(np.where(self._one_sided, np.maximum(missing, 0.0), missing))
         inside = lengths <= pulls.slacks
         halves = 0.5 * pulls.slacks
         pulled = np.where(inside, lengths**2 / (2.0 * pulls.slacks), lengths - halves)
-        return float(pulls.strengths @ pulled) + self._springs.cost(change)
+        return float(pulls.strengths @ pulled)
 
     def projected(self, forces: Floats) -> Floats:
         """Return the nearest forces (r,) that the groups can have."""
@@ -163,7 +171,7 @@ class _Problem:
 
     def improved(self, here: _State) -> _State | None:
         """Return a state of a higher value, or None where none is to be found."""
-        slope = self._wanted - self._pulls.rows @ here.change - self._damping * here.forces
+        slope = here.missing - self._damping * here.forces
         share, direction = 1.0, self._newton(here)
         while share >= LEAST_STEP:
             there = self.state(self.projected(here.forces + share * direction))
@@ -180,11 +188,6 @@ class _Problem:
             share *= 0.25
         return None
 
-    def _missing(self, change: Floats) -> Floats:
-        """Return what rows still miss, b - K x (r,); nothing where a one-sided row has more than it wants."""
-        missing = self._wanted - self._pulls.rows @ change
-        return np.where(self._one_sided, np.maximum(missing, 0.0), missing)
-
     def _lengths(self, rows: Floats) -> Floats:
         return np.sqrt(np.add.reduceat(rows * rows, self._pulls.starts))
 
@@ -194,8 +197,7 @@ class _Problem:
         A pull that misses less than its slack is a spring, y = κ (b - K x) / δ; one that misses more has
         its full force, y = κ r / |r|, and turns with r.
         """
-        pulls = self._pulls
-        missing = self._wanted - pulls.rows @ here.change
+        pulls, missing = self._pulls, here.missing
         yielding = (self._supple * here.free) @ pulls.rows.T
         matrix = yielding.copy()
         matrix.flat[:: len(matrix) + 1] += self._damping

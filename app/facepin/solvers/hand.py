@@ -103,7 +103,7 @@ class _Hand:
         self._ties = _tie_rows(system)
         self._start: Floats | None = None
         self._springs: Springs
-        self._forces = np.zeros(count)
+        self._forces = np.zeros(count) if system.forces is None else system.forces
 
     def solve(self, displacement: Floats, start: Floats) -> Solution:
         """Return the weights for one frame."""
@@ -118,7 +118,8 @@ class _Hand:
         weights = start + found.change
         for tied, other in self._system.ties:
             weights[tied] = min(weights[tied], max(weights[other], start[tied], weights[tied] - 1e-6))
-        return Solution(weights, {"steps": float(steps), "gap": found.gap, "held_back": held_back})
+        notes = {"steps": float(steps), "gap": found.gap, "held_back": held_back}
+        return Solution(weights, notes, self._forces)
 
     def _priced(self, start: Floats) -> Springs:
         """Return what it costs to change each weight from `start` (k,), whatever the pull's direction."""
@@ -170,7 +171,7 @@ class _Hand:
         """Find the balance, with what should not go along pulling back where it would."""
         count, slack = len(wanted), SLACK * self._grasp.height
         rest, ties = self._rest, self._ties
-        share = rest.share(pull, self._rows)
+        share, allowed = rest.share(pull, self._rows), rest.allowed(wanted, self._in_hand)
         rows = np.concatenate([self._rows, ties.rows])
         goals = np.concatenate([wanted, ties.room(start)])
         forces = np.concatenate([self._forces, np.zeros(len(ties.rows))])
@@ -189,7 +190,7 @@ class _Hand:
             )
             found = balance(pulls, springs, goals, forces)
             steps += found.steps
-            row = rest.broken(found.change, share) if cut < MOST_CUTS else None
+            row = rest.broken(found.change, share, allowed) if cut < MOST_CUTS else None
             if row is None:
                 break
             # Rows that no longer pull are dropped; more of them come back if they are needed.
@@ -197,7 +198,7 @@ class _Hand:
             if not row.any() or np.any(np.all(np.abs(rows[fixed:] - row) < 1e-9 * rest.slack, axis=1)):
                 break
             rows = np.concatenate([rows[kept], row[None]])
-            goals = np.append(goals[kept], -rest.allowed)
+            goals = np.append(goals[kept], -allowed)
             forces = np.append(found.forces[kept], 0.0)
         back = float(found.forces[fixed:].sum())
         return found, min(1.0, back), steps
@@ -211,7 +212,6 @@ class _Rest:
         self._along, self._hands = along, max(1, int(np.count_nonzero(grasp.grabbed)))
         self._flat = self._places.reshape(3 * len(self._places), grasp.far.shape[2])
         self._height = grasp.height
-        self.allowed = ALLOWED * grasp.height
         self.slack = FAR_SLACK * grasp.height
 
     def share(self, pull: Floats, rows: Floats) -> Floats:
@@ -219,14 +219,20 @@ class _Rest:
         share: Floats = self._along / self._hands * (pull @ rows)
         return share
 
-    def broken(self, change: Floats, share: Floats) -> Floats | None:
+    def allowed(self, wanted: Floats, in_hand: NDArray[np.bool_]) -> float:
+        """Return the far motion that is not minded, for a pull (r,): nearly none for a nudge."""
+        way = float(np.linalg.norm(wanted[in_hand])) / self._hands**0.5
+        share = min(1.0, way / (2 * ALLOWED * self._height))
+        return ALLOWED * self._height * share * share
+
+    def broken(self, change: Floats, share: Floats, allowed: float) -> Floats | None:
         """Return the row (k,) that pulls back the place that goes furthest too far, if one does."""
         if not len(self._places):
             return None
         moves = (self._flat @ change).reshape(-1, 3)
         lengths = np.sqrt(np.einsum("ij,ij->i", moves, moves))
         worst = int(np.argmax(lengths))
-        excess = lengths[worst] - max(float(share @ change), 0.0) - self.allowed
+        excess = lengths[worst] - max(float(share @ change), 0.0) - allowed
         if excess <= NEARLY * self._height:
             return None
         row: Floats = share - (moves[worst] / lengths[worst]) @ self._places[worst]

@@ -48,6 +48,8 @@ class PinSystem:
     """Pairs (a, b) of shapes: the weight of a may be at most that of b.  For solvers that obey limits."""
     guess: Floats | None = None
     """(k,) weights that an answer is likely to be near to, for solvers that search; None: the start."""
+    forces: Floats | None = None
+    """(r,) forces on the rows that an answer is likely to have, for solvers that search for them."""
     grasp: Grasp | None = None
     """What the hand holds, for solvers that ask for it; None: every row is a pin in the hand."""
 
@@ -60,6 +62,8 @@ class Solution:
     """(k,)"""
     notes: Mapping[str, float] = field(default_factory=dict)
     """Figures worth showing, by name: gamma, step, iterations, optimality."""
+    forces: Floats | None = None
+    """(r,) forces on the rows, of solvers that search for them."""
 
 
 Solve = Callable[[Floats, Floats], Solution]

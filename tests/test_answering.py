@@ -101,6 +101,37 @@ def test_lower_teeth_and_the_root_of_the_tongue_are_moved_by_the_jaw(face: Rig) 
     assert {"jawOpen", "tongueOut"} <= names(face, answering(face, [root]))
 
 
+@pytest.mark.parametrize(
+    "name",
+    ["eyeLookIn_L", "EyesLookLeft", "lookLeft", "x.eyelookupright", "eyelookinleft", "LookUp", "eyesUp"],
+)
+def test_names_in_any_spelling_say_that_the_eyes_turn(name: str) -> None:
+    rig = replace(sheet(shapes=2), shape_names=(name, "smile"))
+    assert gaze_shapes(rig).tolist() == [True, False]
+
+
+@pytest.mark.parametrize("name", ["eyeBlink_L", "eyeUpperUpLeft", "eyes", "browUp", "up", "lookalike"])
+def test_other_names_do_not(name: str) -> None:
+    rig = replace(sheet(shapes=2), shape_names=(name, "lookLeft"))
+    assert gaze_shapes(rig).tolist() == [False, True]
+
+
+def test_names_in_any_spelling_say_tongue() -> None:
+    rig = replace(sheet(), shape_names=("tongueOut", "tongueout", "Tongue_Up", "mouthOpen"))
+    assert tongue_shapes(rig).tolist() == [True, True, True, False]
+
+
+def test_the_rim_of_a_lid_that_a_file_cuts_off_at_the_socket_is_skin(shared: Path) -> None:
+    rig = open_rig(shared / "models/ict-facekit/ict_full153.npz")
+    parts = {
+        part.name: np.unique(rig.triangles[part.triangles.start : part.triangles.stop]) for part in rig.parts
+    }
+    rim = np.intersect1d(parts["face"], parts["eye_socket_left"])
+    assert len(rim)
+    answers = names(rig, answering(rig, rim.tolist()))
+    assert "eyeBlink_L" in answers and not {name for name in answers if "Look" in name}
+
+
 @pytest.mark.parametrize("file", ["ict_expressions.glb", "ict_full153.npz"])
 def test_ict_has_eyeballs_that_nothing_moves_and_lids_that_do_not_answer_with_the_gaze(
     shared: Path, file: str

@@ -1,5 +1,6 @@
 """Which shapes answer a hand: those of eyes and tongue are none of the skin's business."""
 
+import re
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import lru_cache
@@ -14,15 +15,18 @@ from facepin.core.regions import words_of
 from facepin.core.rig import Rig
 from facepin.core.shape_motion import shape_moves
 
-GAZE = frozenset({"look", "looks", "gaze", "eyelook", "eyeball", "eyeballs", "pupil", "pupils"})
-TONGUE = frozenset({"tongue"})
-"""Words in the names of such shapes."""
+GAZE = re.compile(r"(eyes?)?(look|gaze)s?(in|out|up|down|left|right|l|r)*|eyeballs?|pupils?")
+TONGUE = re.compile(r"tongue.*")
+"""Words in the names of such shapes; some write all in small letters, as eyelookinleft."""
+EYES_GO = {"eyes", "up", "down", "left", "right"}
+"""Words of names like eyesUp, which are of the gaze without a word of it."""
 MAINLY = 0.25
 """A shape is also of a point's part if it moves the point by this share of what it moves most."""
 TURN, MISFIT = 0.05, 0.3
 """Least angle by which a shape turns an eyeball where names don't tell, and how much of it may be no turn."""
-OWNED = 0.9
-"""A loose surface is the tongue's if its shapes move it by this share of what others move it."""
+OWNED, ONLY = 0.9, 4.0
+"""A loose surface is the tongue's if its shapes move it by this share of what others move it; the gaze has to
+move it by so much more: sockets, which hang on the lids, are none of its."""
 LOOSE = 1.25
 """How much farther a shape has to move a loose piece than all else where names don't tell."""
 APART = 0.5
@@ -88,24 +92,30 @@ def kinds(rig: Rig) -> Kinds:
     eyes = eyeballs(rig, numbers)
     peaks, about = _moves(rig, numbers, eyes)
     skin = int(np.argmax(np.bincount(numbers[numbers >= 0], minlength=1)))
-    of_eyes: list[int] = (
-        np.unique(np.concatenate([numbers[eye.vertices] for eye in eyes])).tolist() if eyes else []
+    of_eyes = sorted(
+        {int(j) for eye in eyes for j in np.unique(numbers[eye.vertices])} - _sewn(rig, numbers, skin)
     )
 
-    gaze = _named(rig, GAZE) & about
-    if not gaze.any():
+    gaze = (_named(rig, GAZE) | np.array([_eyes_go(name) for name in rig.shape_names], np.bool_)) & about
+    names_tell = bool(gaze.any())
+    if not names_tell:
         gaze = np.array([any(_turns(rig, eye, j) for eye in eyes) for j in range(rig.shape_count)], np.bool_)
     tongue = _named(rig, TONGUE)
-    if not tongue.any():
+    if not (tongue.any() or names_tell):  # else a tongue without a name is one without shapes
         loose = [piece for piece in _loose(rig, numbers, skin) if piece not in of_eyes]
         rest = np.delete(peaks, loose, axis=0).max(axis=0, initial=0.0)
         tongue = ~gaze & (peaks[loose].max(axis=0, initial=0.0) > LOOSE * rest)
-    on_eye = np.isin(numbers, [*of_eyes, *_owned(peaks, gaze, skin)])
-    return Kinds(gaze, tongue, on_eye, np.isin(numbers, _owned(peaks, tongue, skin)) & ~on_eye)
+    on_eye = np.isin(numbers, [*of_eyes, *_owned(peaks, gaze, skin, ONLY)])
+    return Kinds(gaze, tongue, on_eye, np.isin(numbers, _owned(peaks, tongue, skin, OWNED)) & ~on_eye)
 
 
-def _named(rig: Rig, words: frozenset[str]) -> Flags:
-    return np.array([not words.isdisjoint(words_of(name)) for name in rig.shape_names], np.bool_)
+def _named(rig: Rig, word: re.Pattern[str]) -> Flags:
+    return np.array([any(map(word.fullmatch, words_of(name))) for name in rig.shape_names], np.bool_)
+
+
+def _eyes_go(name: str) -> bool:
+    words = words_of(name)
+    return "eyes" in words and len(words) > 1 and EYES_GO.issuperset(words)
 
 
 def _moves(rig: Rig, numbers: NDArray[np.intp], eyes: tuple[Eyeball, ...]) -> tuple[Floats, Flags]:
@@ -143,6 +153,13 @@ def _turns(rig: Rig, eye: Eyeball, shape: int) -> bool:
     return bool(np.linalg.norm(rotation) >= TURN) and misfit <= MISFIT
 
 
+def _sewn(rig: Rig, numbers: NDArray[np.intp], skin: int) -> set[int]:
+    """Return the pieces that share vertices with the skin, though parts of their own, as sockets are."""
+    corners = numbers[rig.triangles]
+    on_skin = corners == skin
+    return set(np.unique(corners[on_skin.any(axis=1) & ~on_skin.all(axis=1)]).tolist())
+
+
 def _loose(rig: Rig, numbers: NDArray[np.intp], skin: int) -> list[int]:
     """Return the pieces that don't hang on the skin: their nearest vertices go other ways than it does."""
     from scipy.spatial import KDTree  # its import takes long, and rigs with names don't need it
@@ -162,10 +179,10 @@ def _loose(rig: Rig, numbers: NDArray[np.intp], skin: int) -> list[int]:
     return found
 
 
-def _owned(peaks: Floats, shapes: Flags, skin: int) -> list[int]:
-    """Return the pieces but the skin that some shapes move about as far as any other does, or farther."""
+def _owned(peaks: Floats, shapes: Flags, skin: int, share: float) -> list[int]:
+    """Return the pieces but the skin that some shapes move by at least a share of what any other does."""
     own = np.where(shapes, peaks, 0.0).max(axis=1, initial=0.0)
     other = np.where(shapes, 0.0, peaks).max(axis=1, initial=0.0)
-    owned = (own > 0) & (own >= OWNED * other)
+    owned = (own > 0) & (own >= share * other)
     owned[skin] = False
     return np.flatnonzero(owned).tolist()

@@ -30,7 +30,7 @@ from facepin.panels.menu import menu_bar
 from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
-from facepin.panels.pins import pins_panel, together
+from facepin.panels.pins import list_height, pins_panel, together
 from facepin.panels.recovery import WorkRow, lost_card, recovery_card
 from facepin.panels.requests import CancelJob, CancelLoading, Request
 from facepin.panels.solver import solver_panel
@@ -120,6 +120,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             desk.view.panes[session.active],
             theme,
         )
+        layout.fit_height(layout.WEIGHTS, scale)
     imgui.end()
     layout.without_background(layout.PINS)
     layout.beside(layout.PINS, layout.SOLVER)
@@ -129,6 +130,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins, theme)
         if desk.view.pins.hovered is not None:
             desk.tool.hovered = desk.view.pins.hovered
+        layout.fit_height(layout.WEIGHTS, scale, list_height(len(pins)))
     imgui.end()
     desk.view.weights.explained = None
     layout.without_background(layout.WEIGHTS)

@@ -11,7 +11,7 @@ LIBRARY = "Poses"
 PANEL_WIDTH = 330.0
 SOLVER_HEIGHT = 170.0
 """First sizes of the docked panels, in pixels at 1x scale."""
-LEAST_BELOW = 330.0
+LEAST_BELOW = 333.0
 """What is left to the panel below one that grows, at 1x scale: ten weights and the head of their list."""
 LEAST_SHARE = 0.25
 """Of the two: where there is no room for so much, the upper one has this share at least."""

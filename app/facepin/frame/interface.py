@@ -338,7 +338,10 @@ def _hand(
 def _vertex_under_mouse(
     desk: Desk, stage: Stage, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
 ) -> None:
-    """While Ctrl is held: tell which shapes can move what is under the mouse, and mark their sliders."""
+    """While Ctrl is held: tell which shapes can move what is under the mouse, and mark their sliders.
+
+    The first of them, which moves it most, tints the face.
+    """
     io, view = imgui.get_io(), desk.view.weights
     view.marked = frozenset()
     if not io.key_ctrl or io.want_capture_mouse or any(io.mouse_down):
@@ -349,6 +352,7 @@ def _vertex_under_mouse(
         if vertex is not None:
             found = movers(stage.session.rig, vertex)
             view.marked = frozenset(j for j, _ in found)
+            desk.view.panes[at].shape = found[0][0] if found else None
             vertex_card(stage.session.rig, stage.session.control, vertex, found, scale)
 
 

@@ -86,6 +86,18 @@ def test_heat_keeps_the_form_in_every_quality(easel: Easel) -> None:
     np.testing.assert_array_equal(fine[..., 3], easel.draw()[..., 3])
 
 
+@pytest.mark.parametrize("fine", [True, False])
+def test_a_tint_colours_what_moves_and_leaves_the_rest_and_the_form(easel: Easel, fine: bool) -> None:
+    tint = easel.heat(0)
+    tint[easel.rig.neutral[:, 0] > 0.4] = 1.0
+    bare, seen = (easel.draw(overlays, fine=fine) for overlays in (BARE, Overlays(tint=tint)))
+    np.testing.assert_array_equal(seen[:, : MIDDLE + 10], bare[:, : MIDDLE + 10])
+    np.testing.assert_array_equal(seen[..., 3], bare[..., 3])
+    tinted = seen[MIDDLE - 25 : MIDDLE + 26, MIDDLE + 30]
+    assert (tinted[:, 2] - tinted[:, 0] > 40).all(), "blue, and without a gap"
+    assert tinted[0, :3].sum() > 1.1 * tinted[-1, :3].sum(), "light still falls from above"
+
+
 def test_a_sheet_is_lit_on_both_sides(gl: moderngl.Context) -> None:
     rig = bowl()
     with drawn(gl, rig, rig.neutral) as (mesh, canvas):
@@ -221,7 +233,7 @@ def test_a_ghost_leaves_the_depth_for_the_pins(easel: Easel) -> None:
 def test_overlays_leave_no_state_behind(easel: Easel) -> None:
     easel.blow_up(1.1)
     bare = easel.draw()
-    everything = Overlays(easel.heat(0.4), True, easel.other)
+    everything = Overlays(easel.heat(0.4), True, easel.other, tint=easel.heat(0.5))
     first = easel.draw(everything)
     np.testing.assert_array_equal(easel.draw(), bare)
     np.testing.assert_array_equal(easel.draw(everything), first)
@@ -231,7 +243,7 @@ def test_overlays_leave_no_state_behind(easel: Easel) -> None:
 
 
 def test_nothing_is_made_for_what_is_off(easel: Easel, monkeypatch: pytest.MonkeyPatch) -> None:
-    for layer in ("HeatLayer", "WireLayer", "GhostLayer"):
+    for layer in ("HeatLayer", "WireLayer", "GhostLayer", "TintLayer"):
         monkeypatch.setattr(pane, layer, None)
     easel.draw()
 
@@ -243,6 +255,7 @@ def test_pictures_show_what_panes_show(easel: Easel, monkeypatch: pytest.MonkeyP
         Overlays(heat=easel.heat(0.6)),
         Overlays(wireframe=True),
         Overlays(ghost=easel.other),
+        Overlays(tint=easel.heat(0.7)),
         Overlays(easel.heat(0.6), True, easel.other),
     ):
         seen = easel.draw(overlays)

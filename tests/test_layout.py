@@ -66,3 +66,42 @@ def test_the_program_keeps_what_the_user_arranged() -> None:
         assert larger["Solver"][3] > 1.3 * before["Solver"][3]
         app.ask(Choose("ui_scale", 1.0))
         assert places(app) == before
+
+
+def click(app: App, x: float, y: float) -> None:
+    app.press(x, y)
+    app.release(x, y)
+    app.step(frames=4)
+
+
+def rows_in_sight(app: App) -> float:
+    columns, window = app.desk.view.weights.columns, imgui.internal.find_window_by_name("Weights")
+    assert columns is not None
+    padding = imgui.get_style().window_padding.y
+    return float((window.pos.y + window.size.y - padding - columns.top) / columns.row)
+
+
+@pytest.mark.parametrize(("size", "scale", "rows"), [((1280, 720), 1.0, 16), ((1920, 1080), 2.0, 10)])
+def test_weights_have_the_room_that_the_solver_does_not_need(
+    size: tuple[int, int], scale: float, rows: int
+) -> None:
+    with running(size=size, scale=scale) as app:
+        app.step(PointerMoved(5, 5), frames=4)
+        assert rows_in_sight(app) >= rows
+
+
+def test_the_solver_panel_is_as_tall_as_what_it_shows() -> None:
+    with running(solver="sparse", size=(1600, 900)) as app:
+        window = imgui.internal.find_window_by_name("Solver")
+        closed = places(app)["Solver"]
+        assert window.scroll_max.y == 0 and window.content_size.y > closed[3] - 60
+        fold = closed[0] + 20, closed[1] + closed[3] - 14
+        click(app, *fold)
+        opened = places(app)["Solver"]
+        assert opened[3] > closed[3] + 20 and window.scroll_max.y == 0
+        x, y = opened[0] + 100, opened[1] + opened[3] + 1
+        app.drag((x, y), (x, y + 120))
+        dragged = places(app)["Solver"]
+        assert dragged[3] == pytest.approx(opened[3] + 120, abs=3), "the user's height stays"
+        click(app, *fold)
+        assert places(app)["Solver"] == closed

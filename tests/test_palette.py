@@ -90,9 +90,10 @@ def test_letters_typed_into_it_are_no_shortcuts_and_a_click_beside_it_closes_it(
 
 def test_it_is_called_out_of_a_text_field_too() -> None:
     with running() as app:
-        app.press(1010, 307)  # the search for shapes
-        app.release(1010, 307)
-        app.step(PointerMoved(1010, 308), frames=3)
+        y = imgui.internal.find_window_by_name("Weights").pos.y + 45
+        app.press(1010, y)  # the search for shapes
+        app.release(1010, y)
+        app.step(PointerMoved(1010, y + 1), frames=3)
         assert imgui.get_io().want_text_input
         app.step(KeyPressed("w"), frames=2)
         assert not app.desk.view.panes[0].wireframe

@@ -67,3 +67,13 @@ def listed(items: Sequence[str]) -> str:
     shown = ", ".join(items[:MOST_LISTED])
     hidden = len(items) - MOST_LISTED
     return f"{shown} and {hidden} more" if hidden > 0 else shown
+
+
+def brief(title: str) -> str:
+    """Return a title without what it says in brackets at its end: "Few shapes (sparse)" is "Few shapes"."""
+    return title.partition(" (")[0]
+
+
+def bracketed(title: str) -> str:
+    """Return what a title says in brackets at its end; empty where it has none."""
+    return title.partition(" (")[2].removesuffix(")")

@@ -189,9 +189,8 @@ class Stage:
             heat = shown.gauge.reach(work.panes[pane])
         elif view.shading == "heat":
             heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
-        if view.shape is not None:
-            heat = shown.gauge.shape(view.shape)
-        return Overlays(heat, view.wireframe, self._ghost_of(view), view.shading)
+        tint = None if view.shape is None else shown.gauge.shape(view.shape)
+        return Overlays(heat, view.wireframe, self._ghost_of(view), view.shading, tint)
 
     def portrait(
         self,

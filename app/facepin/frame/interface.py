@@ -30,7 +30,7 @@ from facepin.panels.menu import menu_bar
 from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
-from facepin.panels.pins import pins_panel, together
+from facepin.panels.pins import list_height, pins_panel, together
 from facepin.panels.recovery import WorkRow, lost_card, recovery_card
 from facepin.panels.requests import CancelJob, CancelLoading, Request
 from facepin.panels.solver import solver_panel
@@ -121,6 +121,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             desk.view.panes[session.active],
             theme,
         )
+        layout.fit_height(layout.WEIGHTS, scale)
     imgui.end()
     layout.without_background(layout.PINS)
     layout.beside(layout.PINS, layout.SOLVER)
@@ -130,6 +131,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins, theme)
         if desk.view.pins.hovered is not None:
             desk.tool.hovered = desk.view.pins.hovered
+        layout.fit_height(layout.WEIGHTS, scale, list_height(len(pins)))
     imgui.end()
     desk.view.weights.explained = None
     layout.without_background(layout.WEIGHTS)
@@ -354,7 +356,10 @@ def _hand(
 def _vertex_under_mouse(
     desk: Desk, stage: Stage, viewports: Sequence[Viewport], pixel_ratio: float, scale: float
 ) -> None:
-    """While Ctrl is held: tell which shapes can move what is under the mouse, and mark their sliders."""
+    """While Ctrl is held: tell which shapes can move what is under the mouse, and mark their sliders.
+
+    The first of them, which moves it most, tints the face.
+    """
     io, view = imgui.get_io(), desk.view.weights
     view.marked = frozenset()
     if not io.key_ctrl or io.want_capture_mouse or any(io.mouse_down):
@@ -365,6 +370,7 @@ def _vertex_under_mouse(
         if vertex is not None:
             found = movers(stage.session.rig, vertex)
             view.marked = frozenset(j for j, _ in found)
+            desk.view.panes[at].shape = found[0][0] if found else None
             vertex_card(stage.session.rig, stage.session.control, vertex, found, scale)
 
 

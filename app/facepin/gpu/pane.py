@@ -9,6 +9,7 @@ from facepin.gpu.framing import Framing
 from facepin.gpu.ghost import GhostLayer
 from facepin.gpu.heat import HeatLayer
 from facepin.gpu.scene import PaneMesh, Part
+from facepin.gpu.tint import TintLayer
 from facepin.gpu.wires import WireLayer
 
 
@@ -23,6 +24,8 @@ class Overlays:
     """Another pose of the same scene."""
     shading: Shading = "studio"
     """What colours the face where `heat` does not."""
+    tint: Points | None = None
+    """(n,) float32, 0..1: how strongly each vertex is tinted, whatever colours the face."""
 
 
 BARE = Overlays()
@@ -64,6 +67,10 @@ def draw_pane(
         mesh.restore()
         heat.upload(overlays.heat)
         heat.draw(canvas, framing)
+    if overlays.tint is not None:
+        tint = mesh.kept.get(lambda: TintLayer(mesh), TintLayer)
+        tint.upload(overlays.tint)
+        tint.draw(canvas, framing)
     if (ghost := overlays.ghost) is not None:
         ghost.kept.get(lambda: GhostLayer(ghost), GhostLayer).draw(canvas, framing)
     if overlays.wireframe:

@@ -9,8 +9,12 @@ SOLVER = "Solver"
 PINS = "Pins"
 LIBRARY = "Poses"
 PANEL_WIDTH = 330.0
-SOLVER_HEIGHT = 258.0
+SOLVER_HEIGHT = 170.0
 """First sizes of the docked panels, in pixels at 1x scale."""
+LEAST_BELOW = 333.0
+"""What is left to the panel below one that grows, at 1x scale: ten weights and the head of their list."""
+LEAST_SHARE = 0.25
+"""Of the two: where there is no room for so much, the upper one has this share at least."""
 SIGN = (
     imgui.WindowFlags_.no_decoration
     | imgui.WindowFlags_.always_auto_resize
@@ -84,6 +88,45 @@ def without_background(name: str) -> None:
         )
         if beside:
             imgui.set_next_window_bg_alpha(0.0)
+
+
+def fit_height(below: str, scale: float, height: float | None = None) -> None:
+    """Make the docked window that is being drawn as tall as what it shows; another one takes the rest.
+
+    To be called after its last item.  A height that the user gives it stays until what it shows becomes
+    taller or lower, or until another of its tabs was in front.
+
+    Parameters
+    ----------
+    below : str
+        The window that shares the column, which keeps `LEAST_BELOW`.
+    scale : float
+        imgui units per pixel of a 1x screen.
+    height : float
+        Wanted, in imgui units; None for what its items take.
+    """
+    node = imgui.internal.get_current_window().dock_node
+    other = imgui.internal.find_window_by_name(below)
+    rest = None if other is None else other.dock_node
+    if node is None or rest is None or node.parent_node is None or rest.parent_node is None:
+        return
+    column = node.parent_node
+    if column.id_ != rest.parent_node.id_ or column.split_axis != imgui.internal.Axis.y:
+        return
+    style = imgui.get_style()
+    if height is None:
+        height = imgui.get_cursor_pos().y - style.item_spacing.y + style.window_padding.y
+    room = column.size.y - style.docking_separator_size
+    wanted = min(height, max(room - LEAST_BELOW * scale, LEAST_SHARE * room))
+    storage, last, by_hand = imgui.get_state_storage(), imgui.get_id("height"), imgui.get_id("by hand")
+    if abs(storage.get_float(last, 0.0) - wanted) > 1.0 or imgui.is_window_appearing():
+        storage.set_float(last, wanted)
+        storage.set_bool(by_hand, False)
+    elif abs(node.size.y - wanted) > 1.0 and imgui.is_mouse_down(0):
+        storage.set_bool(by_hand, True)
+    if abs(node.size.y - wanted) > 1.0 and not storage.get_bool(by_hand):
+        imgui.internal.dock_builder_set_node_size(node.id_, imgui.ImVec2(column.size.x, wanted))
+        imgui.internal.dock_builder_set_node_size(rest.id_, imgui.ImVec2(column.size.x, room - wanted))
 
 
 def is_known(name: str) -> bool:

@@ -114,6 +114,14 @@ def pins_panel(
     return request
 
 
+def list_height(pins: int) -> float:
+    """Return the height of the panel with all of so many pins in sight, in imgui units."""
+    style = imgui.get_style()
+    row = imgui.get_frame_height() + 2 * style.cell_padding.y
+    lines = 2 * imgui.get_frame_height_with_spacing() + imgui.get_text_line_height_with_spacing()
+    return imgui.get_cursor_start_pos().y + lines + max(pins, 2) * row + style.window_padding.y
+
+
 def _head(pins: tuple[Pin, ...], selected: Collection[int], view: PinsView) -> Request | None:
     """Draw how a stroke is laid, and how many pins there are."""
     _, view.sketching = imgui.checkbox("Sketch strokes of", view.sketching)

@@ -1,21 +1,23 @@
-"""The solver panel: which solver, its own settings, and what its last answer was like."""
+"""The solver panel: which solver, what it trades for what, and behind a fold the figures for who studies it."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.control import ShapeControl
-from facepin.core.measures import out_of_range
+from facepin.core.measures import out_of_range, percent
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.panels.requests import UseSolver
 from facepin.panels.theme import Theme, dim_sentence
+from facepin.panels.tiles import shortened
+from facepin.panels.trade import trade_slider
 from facepin.panels.view import PaneView
 from facepin.session.session import Pane
-from facepin.session.solving import Solved
+from facepin.session.solving import Solved, SolverChoice
 from facepin.solvers import SOLVERS
 
 HUGE = 10.0
@@ -27,23 +29,81 @@ def solver_panel(
 ) -> UseSolver | None:
     """Draw the solver of pane number `at`; return what the user changes in this frame, or None.
 
-    `view` is told whether the pane should show how far a radius reaches.
+    Settings that have words for their ends stand in front while they have an effect; all of them, by their
+    own names, are among the details.  `view` is told whether the pane should show how far a radius reaches.
     """
     choice = pane.choice
     view.reach = False
+    request = _kinds(at, choice, view)
+    for field in _settings(choice, effective=True):
+        if field.metadata["ends"] is None:
+            continue
+        change = trade_slider(field, getattr(choice.settings, field.name))
+        if change is not None:
+            request = _changed(at, choice, field.name, *change)
+    if not choice.kind.obeys_limits:
+        changed, keep = imgui.checkbox("Keep within limits", choice.keep_limits)
+        imgui.set_item_tooltip("Clip every weight the solver returns to the limits of its shape.")
+        if changed:
+            request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
+    if pane.solved is None:
+        dim_sentence(choice.kind.summary)
+    else:
+        _answer(rig, control, pane.pose, pane.solved, theme)
+    if _fold():
+        request = _details(at, choice, view) or request
+        if pane.solved is not None:
+            _notes(pane.solved)
+    return request
+
+
+def _kinds(at: int, choice: SolverChoice, view: PaneView) -> UseSolver | None:
+    """Draw the list of solvers."""
     request = None
     imgui.set_next_item_width(-1)
-    if imgui.begin_combo("##solver", choice.kind.title):
+    room = imgui.get_content_region_avail().x - imgui.get_frame_height() - imgui.get_style().frame_padding.x
+    if imgui.begin_combo("##solver", shortened(choice.kind.title, room)):
         for key, kind in SOLVERS.items():
             if imgui.selectable(kind.title, kind is choice.kind)[0] and kind is not choice.kind:
                 request = UseSolver(at, view.choice(key, choice))
             imgui.set_item_tooltip(kind.summary)
         imgui.end_combo()
-    imgui.set_item_tooltip(choice.kind.summary)
+    imgui.set_item_tooltip(f"{choice.kind.title}\n{choice.kind.summary}")
+    return request
+
+
+def _settings(choice: SolverChoice, *, effective: bool) -> Iterator["dataclasses.Field[Any]"]:
+    """Yield the solver's settings: all of them, or those only that have an effect now."""
     for field in dataclasses.fields(choice.settings):
+        if not effective or _has_effect(choice, field):
+            yield field
+
+
+def _has_effect(choice: SolverChoice, field: "dataclasses.Field[Any]") -> bool:
+    when = field.metadata["when"]
+    return when is None or getattr(choice.settings, when[0]) == when[1]
+
+
+def _changed(at: int, choice: SolverChoice, name: str, value: Any, final: bool) -> UseSolver:
+    settings = dataclasses.replace(choice.settings, **{name: value})
+    return UseSolver(at, dataclasses.replace(choice, settings=settings), final=final)
+
+
+def _fold() -> bool:
+    """Draw the fold of the details; return whether it is open."""
+    imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() - imgui.get_style().frame_padding.x)
+    imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
+    is_open = imgui.tree_node_ex("Details", imgui.TreeNodeFlags_.no_tree_push_on_open)
+    imgui.pop_style_color()
+    return bool(is_open)
+
+
+def _details(at: int, choice: SolverChoice, view: PaneView) -> UseSolver | None:
+    """Draw every setting by its own name and number."""
+    request = None
+    for field in _settings(choice, effective=False):
         value = getattr(choice.settings, field.name)
-        when = field.metadata["when"]
-        imgui.begin_disabled(when is not None and getattr(choice.settings, when[0]) != when[1])
+        imgui.begin_disabled(not _has_effect(choice, field))
         changed, value = _setting(field.name, field.metadata, value)
         sliding = imgui.is_item_active()
         if field.name == "radius" and (sliding or imgui.is_item_hovered()):
@@ -51,20 +111,7 @@ def solver_panel(
         finished = imgui.is_item_deactivated_after_edit()
         imgui.end_disabled()
         if changed or finished:
-            settings = dataclasses.replace(choice.settings, **{field.name: value})
-            changed_choice = dataclasses.replace(choice, settings=settings)
-            request = UseSolver(at, changed_choice, final=finished or not sliding)
-    if not choice.kind.obeys_limits:
-        imgui.set_cursor_pos_x(_column())
-        changed, keep = imgui.checkbox("keep within limits", choice.keep_limits)
-        imgui.set_item_tooltip("Clip every weight the solver returns to the limits of its shape.")
-        if changed:
-            request = UseSolver(at, dataclasses.replace(choice, keep_limits=keep))
-    imgui.separator()
-    if pane.solved is None:
-        dim_sentence(f"{choice.kind.summary} Its figures appear here with the first drag.")
-    else:
-        _answer(rig, control, pane.pose, pane.solved, theme)
+            request = _changed(at, choice, field.name, value, finished or not sliding)
     return request
 
 
@@ -105,32 +152,33 @@ def _setting(name: str, about: Mapping[str, Any], value: Any) -> tuple[bool, Any
 
 
 def _answer(rig: Rig, control: ShapeControl, pose: Pose, solved: Solved, theme: Theme) -> None:
-    """Draw what the last solve was like: two figures in a line, so that sliders have the room."""
+    """Say in a line how near the pins came, and what went too far."""
     outside = out_of_range(pose.weights, control.limits_at(pose.weights))
     largest = float(np.abs(pose.weights).max(initial=0.0))
-    figures = {
-        "solve": (f"{solved.seconds * 1e3:.2f} ms", "Time of the last solve."),
-        "pin error": (
-            f"{100 * solved.pin_error / rig.height:.2f} %",
-            f"Mean distance of the pins from their goals, in % of the face's height: {solved.pin_error:.4g}"
-            " in the rig's unit.",
-        ),
-        "out of range": (f"{outside}", "How many weights are beyond the limits of their shapes."),
-    }
-    if largest > HUGE:
-        figures["largest"] = f"{largest:,.0f}", "The largest weight: the face is far beyond its shapes."
-    figures |= {name: (f"{value:.4g}", "") for name, value in solved.notes.items()}
+    imgui.text_disabled("pins off by")
+    imgui.set_item_tooltip(
+        f"Mean distance of the pins from their goals, in % of the face's height: {solved.pin_error:.4g}"
+        " in the rig's unit."
+    )
+    imgui.same_line()
+    imgui.text(f"{percent(solved.pin_error, rig.height):.2f} %")
+    if outside:
+        imgui.same_line()
+        far = f"up to {largest:,.0f}" if largest > HUGE else "out of range"
+        imgui.text_colored(imgui.ImVec4(*theme.warning), f"  {outside} {far}")
+        imgui.set_item_tooltip("Weights beyond the limits of their shapes.")
+
+
+def _notes(solved: Solved) -> None:
+    """List what the last solve was like, two figures in a line."""
+    figures = {"solve": f"{solved.seconds * 1e3:.2f} ms"}
+    figures |= {name: f"{value:.4g}" for name, value in solved.notes.items()}
     if imgui.begin_table("figures", 4, imgui.TableFlags_.sizing_stretch_prop):
         for share in (26, 24, 24, 26):  # fixed: digits that change must not make columns dance
             imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch, share)
-        for name, (value, help) in figures.items():
+        for name, value in figures.items():
             imgui.table_next_column()
             imgui.text_disabled(name)
-            if help:
-                imgui.set_item_tooltip(help)
             imgui.table_next_column()
-            if (name == "out of range" and outside) or name == "largest":
-                imgui.text_colored(imgui.ImVec4(*theme.warning), value)
-            else:
-                imgui.text(value)
+            imgui.text(value)
         imgui.end_table()

@@ -37,7 +37,7 @@ class PaneView:
     """How far the solver's radius reaches over the skin; shown while the setting is under the mouse."""
 
     shape: int | None = None
-    """Shape whose moves are shown as colours; while the mouse rests on its name."""
+    """Shape whose moves tint the face: while the mouse rests on its name or, with Ctrl, on what it moves."""
     before_heat: Shading = "studio"
     """What the heat map gives way to."""
 
@@ -73,7 +73,7 @@ class PaneView:
     @property
     def measured(self) -> bool:
         """Whether colours are a measure: of a move, or of the reach of the solver's radius."""
-        return self.shading == "heat" or self.reach or self.shape is not None
+        return self.shading == "heat" or self.reach
 
     def next_ghost(self, *, has_reference: bool) -> None:
         """Go on to the next ghost there is."""

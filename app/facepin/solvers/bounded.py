@@ -15,10 +15,11 @@ class BoundedSettings:
 
     alpha: float = setting(
         0.1,
-        "Holds the weights near the pose that was set by hand: more is calmer, less is exact.",
+        "How strongly weights are held near the pose that was set by hand.",
         low=1e-6,
         high=10.0,
         log=True,
+        ends=("exact", "calm"),
     )
 
 
@@ -44,8 +45,8 @@ def prepare(system: PinSystem, settings: BoundedSettings) -> Solve:
 
 KIND = SolverKind(
     key="bounded",
-    title="Bounded",
-    summary="As near to the pins as the shapes allow without ever leaving their limits.",
+    title="Many shapes (bounded)",
+    summary="Spreads the work over many shapes, a little each, never out of their limits.",
     settings=BoundedSettings,
     prepare=prepare,
     obeys_limits=True,

@@ -16,10 +16,11 @@ class HybridSettings:
     automatic: bool = setting(True, "Takes gamma from the pins: nearer 1 with few, nearer 0 with many.")
     gamma: float = setting(
         0.1,
-        "The mixture: 1 is the pseudo-inverse, 0 the transposition.",
+        "The mixture: 0 is the transposition, 1 the pseudo-inverse.",
         low=0.0,
         high=1.0,
         when=("automatic", False),
+        ends=("shared", "exact"),
     )
     step: str = setting("exact", STEP_HELP, choices=STEPS)
 
@@ -51,8 +52,8 @@ def prepare(system: PinSystem, settings: HybridSettings) -> Solve:
 
 KIND = SolverKind(
     key="hybrid",
-    title="Hybrid",
-    summary="Pseudo-inverse with few pins, transposition with many.",
+    title="Shared and exact (hybrid, Cetinaslan 2017)",
+    summary="Meets few pins exactly, shares the pull of many.",
     settings=HybridSettings,
     prepare=prepare,
 )

@@ -100,6 +100,7 @@ def setting(
     log: bool = False,
     choices: tuple[str, ...] = (),
     when: tuple[str, Any] | None = None,
+    ends: tuple[str, str] | None = None,
 ) -> Any:
     """Declare one field of a settings class, with what a panel or a command line needs to offer it.
 
@@ -117,6 +118,10 @@ def setting(
         Allowed words.
     when : (str, value)
         The setting has an effect only while another one has this value, e.g. ``("automatic", False)``.
+    ends : (str, str)
+        What the lowest and the highest number lead to, in words: a panel offers the setting between them, and
+        those without as details.
     """
     metadata = {"help": help, "low": low, "high": high, "log": log, "choices": choices, "when": when}
+    metadata["ends"] = ends
     return field(default=default, metadata=metadata)

@@ -66,7 +66,7 @@ def prepare(system: PinSystem, settings: PseudoInverseSettings) -> Solve:
 
 KIND = SolverKind(
     key="pseudo_inverse",
-    title="Pseudo-inverse",
+    title="Exact (pseudo-inverse)",
     summary="Meets the pins as exactly as the shapes allow, at the price of moving the rest of the face.",
     settings=PseudoInverseSettings,
     prepare=prepare,

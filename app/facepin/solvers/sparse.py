@@ -22,10 +22,11 @@ class SparseSettings:
 
     price: float = setting(
         0.1,
-        "What it costs to use a shape: more leaves fewer shapes active, less brings the pins closer.",
+        "What it costs to use a shape.",
         low=0.0,
         high=10.0,
         log=True,
+        ends=("follow closely", "few shapes"),
     )
 
 
@@ -62,7 +63,7 @@ def prepare(system: PinSystem, settings: SparseSettings) -> Solve:
 
 KIND = SolverKind(
     key="sparse",
-    title="Sparse",
+    title="Few shapes (sparse)",
     summary="Reaches for the pins with as few shapes as it can, never out of their limits.",
     settings=SparseSettings,
     prepare=prepare,

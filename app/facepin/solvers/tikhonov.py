@@ -12,10 +12,11 @@ class TikhonovSettings:
 
     alpha: float = setting(
         0.001,
-        "Holds the weights near where they were: more is calmer, less is exact.",
+        "How strongly weights are held where they were.",
         low=0.0,
         high=1000.0,
         log=True,
+        ends=("exact", "calm"),
     )
     relative: bool = setting(
         False,
@@ -39,8 +40,8 @@ def prepare(system: PinSystem, settings: TikhonovSettings) -> Solve:
 
 KIND = SolverKind(
     key="tikhonov",
-    title="Tikhonov",
-    summary="The pseudo-inverse of Lewis and Anjyo: trades a little exactness for smaller weights.",
+    title="Smoothed (Tikhonov, Lewis & Anjyo 2010)",
+    summary="Gives up a little of meeting the pins for smaller weights.",
     settings=TikhonovSettings,
     prepare=prepare,
 )

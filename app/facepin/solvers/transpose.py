@@ -24,10 +24,11 @@ class TransposeSettings:
     step: str = setting("exact", STEP_HELP, choices=STEPS)
     iterations: int = setting(
         1,
-        "Number of steps per frame: one is the paper's, many approach the pseudo-inverse.",
+        "Steps per frame: one is the paper's, many approach the exact answer.",
         low=1,
         high=200,
         log=True,
+        ends=("calm", "exact"),
     )
     radius: float = setting(
         0.0,
@@ -96,7 +97,7 @@ def prepare(system: PinSystem, settings: TransposeSettings) -> Solve:
 
 KIND = SolverKind(
     key="transpose",
-    title="Transposition",
+    title="Share the pull (transposition, Cetinaslan 2017)",
     summary="Moves each shape as much as it helps the pins: calm and local; pins may stay a little behind.",
     settings=TransposeSettings,
     prepare=prepare,

@@ -10,6 +10,7 @@ from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.core.measures import active
+from facepin.core.places import titles
 from facepin.core.pose import Pose
 from facepin.core.shape_motion import movers
 from facepin.desk.desk import Desk
@@ -126,7 +127,8 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     of_pins: Request | None = None
     if imgui.begin(layout.PINS)[0] and session is not None and desk.stage is not None:
         pins, positions = session.pose.pins, desk.stage.positions(session.active)
-        of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins, theme)
+        called = titles(desk.stage.places, pins) if pins else {}
+        of_pins = pins_panel(session.rig, pins, called, positions, desk.tool.selected, desk.view.pins, theme)
         if desk.view.pins.hovered is not None:
             desk.tool.hovered = desk.view.pins.hovered
     imgui.end()
@@ -323,8 +325,9 @@ def _hand(
     pins = session.pose.pins
     hovered = next((pin for pin in pins if pin.vertex == desk.tool.hovered and not pin.hidden), None)
     if hovered is not None and not desk.tool.holding:
+        name = titles(stage.places, pins)[hovered.vertex]
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
-            pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
+            pin_label(hovered, name, stage.positions(at), camera, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
     if desk.view.symmetric:
@@ -347,7 +350,7 @@ def _vertex_under_mouse(
         if vertex is not None:
             found = movers(stage.session.rig, vertex)
             view.marked = frozenset(j for j, _ in found)
-            vertex_card(stage.session.rig, stage.session.control, vertex, found, scale)
+            vertex_card(stage.session.rig, stage.session.control, stage.places.title(vertex), found, scale)
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
@@ -362,6 +365,8 @@ def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
         desk.view.pin_menu = None
         return None
     vertices = together(pin, desk.tool.selected)
-    request = pin_menu(pin, [other for other in pose.pins if other.vertex in vertices], desk.view.habit)
+    title = titles(desk.stage.places, pose.pins)[pin.vertex] if desk.stage is not None else pin.name
+    chosen = [other for other in pose.pins if other.vertex in vertices]
+    request = pin_menu(pin, chosen, title, desk.view.habit)
     imgui.end_popup()
     return request

@@ -195,6 +195,7 @@ class Router:
             desk.view.pins.stroke if desk.view.pins.sketching else None,
             ("left", NONE) not in PRESETS[desk.view.habit].motions,
             stage.session.mirror if desk.view.symmetric else None,
+            lambda _: stage.places,
         )
 
 

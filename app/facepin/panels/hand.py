@@ -50,14 +50,20 @@ def draw_gesture(gesture: Gesture | None, pixel_ratio: float, scale: float) -> N
 
 
 def pin_label(
-    pin: Pin, positions: Points, camera: Camera, viewport: Viewport, pixel_ratio: float, scale: float
+    pin: Pin,
+    title: str,
+    positions: Points,
+    camera: Camera,
+    viewport: Viewport,
+    pixel_ratio: float,
+    scale: float,
 ) -> None:
-    """Write beside a pin what it is called and what is not usual about it; nothing where nothing is."""
-    words = [pin.name] * bool(pin.name)
+    """Write beside a pin what it is called and what is not usual about it."""
+    words = [title]
     words += [f"stiffness {pin.stiffness:.3g}"] * (pin.stiffness != 1.0)
     words += ["on screen"] * (pin.freedom == "screen") + ["locked"] * pin.locked
     x, y, _ = (camera.project(positions[[pin.vertex]], viewport)[0] / pixel_ratio).tolist()
-    if not words or x != x:
+    if x != x:
         return
     text, pad = "   ".join(words), 4 * scale
     size = imgui.calc_text_size(text)

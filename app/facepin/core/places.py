@@ -39,6 +39,8 @@ PLAIN = {"eye": "eyeball", "brow": "brow", "teeth": "teeth", "tongue": "tongue",
 
 MIDDLE = 0.012
 """Distance from the middle, as a share of the height, within which a place has no side."""
+UNMOVED = 1e-4
+"""Move along an axis at weight 1, as a share of the height, that counts as none."""
 
 # Shares of how far a shape moves the face at most.
 LID, SQUINT, LIP, BROW, LASHES, SUNK = 0.18, 0.3, 0.3, 0.45, 0.05, 0.12
@@ -60,6 +62,8 @@ class Places:
     """(n,) which of `names` each vertex belongs to."""
     sides: NDArray[np.int8]
     """(n,) 1 on the character's left, −1 on its right, 0 in the middle."""
+    moved: Flags
+    """(n,) whether any shape moves it."""
 
     def region(self, vertex: int) -> str:
         """Return the region of a vertex: "upper lip"."""
@@ -69,6 +73,15 @@ class Places:
         """Return region and side of a vertex: "upper lip, left"."""
         side = self.sides[vertex]
         return self.region(vertex) + (", left" if side > 0 else ", right" if side < 0 else "")
+
+    def unmoved(self, vertex: int) -> str:
+        """Return what to say of a vertex that no shape moves; nothing where one does."""
+        if self.moved[vertex]:
+            return ""
+        region = self.region(vertex)
+        if self.moved[self.regions == self.regions[vertex]].any():
+            return f"No shape moves this part of the {region}"
+        return f"No shape moves the {region}"
 
 
 def titles(places: Places, pins: Sequence[Pin]) -> dict[int, str]:
@@ -103,7 +116,14 @@ def find_places(rig: Rig) -> Places:
         names[lashes] = np.where(_sunk(moves)[lashes], "upper lid", "lower lid")
         _islands(rig, moves, frame, names, skin)
     found, regions = np.unique(names.astype(str), return_inverse=True)
-    return Places(tuple(found.tolist()), regions.astype(np.int16), sides)
+    return Places(tuple(found.tolist()), regions.astype(np.int16), sides, _moved(rig))
+
+
+def _moved(rig: Rig) -> Flags:
+    """Return which vertices (n,) any shape moves, or two together."""
+    moved = np.zeros(rig.vertex_count, np.bool_)
+    moved[rig.deltas.indices[np.abs(rig.deltas.data) > UNMOVED * rig.height] // 3] = True
+    return moved
 
 
 class _Moves:

@@ -123,6 +123,9 @@ class DragTool:
             if sight.stroke is not None:
                 self.gesture = sketch(pixel, sight.stroke, sight, self.selected if adds else frozenset())
                 return None
+            if not sight.places.moved[vertex]:
+                self.remark = sight.places.unmoved(vertex)
+                vertex = None  # to the hand it is as if nothing were there
         if vertex is None:
             if adds or sight.beside:
                 self.gesture = span(pixel, sight, self.selected, adds=adds, keeps=adds)

@@ -45,8 +45,6 @@ class Hold:
 
     def release(self, pixel: Pixel) -> Edit | None:
         """Let go."""
-        if self.placed and not self.sight.rig.rows_at([self.pin.vertex]).any():
-            self.remark = "No shape of this rig moves the point under the new pin"
         if self.moved:
             return self._dragged(pixel, final=True)
         self.selected = self.clicked

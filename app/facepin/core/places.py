@@ -232,6 +232,7 @@ def _skin(rig: Rig, moves: _Moves, frame: _Frame, skin: Flags) -> NDArray[np.obj
         (corner & front, "mouth corner"),
         (lips & np.where(upper == lower, y > 0, upper > lower), "upper lip"),
         (lips, "lower lip"),
+        (front & (x < 0.95 * frame.corner[0]) & (np.abs(y) < 0.3) & (z < -0.12), "inside of the mouth"),
         (is_face & (y > top), "forehead"),
         (brows, "brow"),
         (front & (x < NOSE_OUT) & (y > 1.2), "forehead"),

@@ -22,7 +22,15 @@ from facepin.panels.chart import chart_window
 from facepin.panels.commands import Command
 from facepin.panels.filmstrip import filmstrip_window
 from facepin.panels.guide import Hand, draw_guide
-from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint, symmetry_sign
+from facepin.panels.hand import (
+    aim_ring,
+    axis_line,
+    draw_gesture,
+    hidden_pins,
+    pin_label,
+    sketch_hint,
+    symmetry_button,
+)
 from facepin.panels.history import history_window
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
@@ -271,7 +279,7 @@ def over_picture(
     _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)
-    elif not desk.view.pins.sketching:
+    if not any(pin.hidden for pin in session.pose.pins) and not desk.view.pins.sketching:
         _first_steps(desk, session, viewport, pixel_ratio, scale)
     return asked
 
@@ -328,12 +336,21 @@ def _hand(
         name = titles(stage.places, pins)[hovered.vertex]
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
             pin_label(hovered, name, stage.positions(at), camera, place, pixel_ratio, scale)
+    if desk.tool.aim is not None and not desk.tool.holding:
+        for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
+            where = stage.positions(at), camera, place
+            aim_ring(desk.tool.aim, stage.places, *where, pixel_ratio, scale)
+    if desk.tool.line is not None:
+        axis, pressed = desk.tool.line
+        place = next((each for each in viewports if each.contains(*pressed)), viewport)
+        axis_line(axis, pressed, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
-    if desk.view.symmetric:
-        symmetry_sign(viewport, pixel_ratio, scale)
+    asked = symmetry_button(desk.view.symmetric, desk.view.habit, viewport, pixel_ratio, scale)
     hidden = sum(pin.hidden for pin in pins)
-    return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
+    if hidden:
+        asked = hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) or asked
+    return asked
 
 
 def _vertex_under_mouse(

@@ -49,6 +49,8 @@ class Sight:
     mirror: Mirror | None = None
     """Left and right of the rig, where twins of pins move along."""
 
+    steady: bool = False
+    """Whether the goal is to stay where the hand but trembles."""
     find_places: Callable[[Rig], Places] = find_places
     """Names the places of the rig; whoever has them already gives them."""
 

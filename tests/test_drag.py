@@ -176,12 +176,12 @@ def test_a_hidden_pin_is_neither_found_nor_dragged_and_its_vertex_gets_no_second
     assert not tool.selected
 
 
-def test_a_new_pin_where_no_shape_moves_anything_is_pointed_out() -> None:
+def test_a_press_where_no_shape_moves_anything_makes_no_pin_and_says_so() -> None:
     tool = DragTool()
     still = next(v for v in range(RIG.vertex_count) if not RIG.rows_at([v]).any())
-    tool.handle(PointerPressed(*pixel_of(still)), sight())
-    tool.handle(PointerReleased(*pixel_of(still)), sight())
-    assert "No shape" in tool.remark
+    assert tool.handle(PointerPressed(*pixel_of(still)), sight()) is None
+    assert not tool.holding
+    assert tool.remark == "No shape moves this part of the skin"
 
 
 def test_escape_gives_back_what_was_selected_then_takes_it_away() -> None:

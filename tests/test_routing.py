@@ -97,7 +97,7 @@ def test_undo_does_not_take_the_pane_from_under_the_camera() -> None:
         app.ask(AddPane(choose("tikhonov")))
         app.step(PointerMoved(5, 5), frames=3)
         corner = app.frame.viewports[1]
-        at = (corner.x + corner.width - 30, corner.y + corner.height - 30)
+        at = (corner.x + corner.width - 30, corner.y + corner.height - 130)
         app.press(*at, "middle")
         app.step(UNDO, frames=2)
         app.move(at[0] - 20, at[1])

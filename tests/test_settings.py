@@ -48,7 +48,7 @@ def test_a_habit_changes_mouse_and_keys_at_once() -> None:
         app.drag(beside, (100.0, 600.0), alt=True)
         assert app.desk.camera.yaw != before.yaw
         app.step(KeyPressed("a"), frames=2)
-        assert app.desk.camera.distance == pytest.approx(before.distance, rel=0.2)
+        assert app.desk.camera.distance < before.distance  # the face without its bust
         app.ask(Choose("habit", "blender"))
         turned = app.desk.camera
         app.drag(beside, (100.0, 600.0), "middle")

@@ -17,7 +17,10 @@ from facepin.solvers import SOLVERS, bounded
 from facepin.solvers.interface import setting
 
 TRADES = [
-    (kind.key, field) for kind in SOLVERS.values() for field in fields(kind.settings) if field.metadata["ends"]
+    (kind.key, field)
+    for kind in SOLVERS.values()
+    for field in fields(kind.settings)
+    if field.metadata["ends"]
 ]
 
 
@@ -41,7 +44,9 @@ def test_titles_say_what_a_solver_does_before_what_it_is_called() -> None:
 
 
 @contextmanager
-def panel_of(choice: SolverChoice | None = None, solver: str = "sparse") -> Iterator[tuple[App, float, float]]:
+def panel_of(
+    choice: SolverChoice | None = None, solver: str = "sparse"
+) -> Iterator[tuple[App, float, float]]:
     """The program, and where the first line below the name of the solver is."""
     with running(solver=solver) as app:
         if choice is not None:

@@ -37,8 +37,8 @@ def test_shapes_are_listed_with_what_holds_them(texts: list[str]) -> None:
     assert len(found) > 10
     locked = np.zeros(20, bool)
     locked[found[0][0]] = True
-    vertex_card(rig, replace(ShapeControl.of(rig), locked=locked), vertex, found, 1.0)
-    assert texts[0] == f"Vertex {vertex}: {len(found)} shapes, % of face height"
+    vertex_card(rig, replace(ShapeControl.of(rig), locked=locked), "chin", found, 1.0)
+    assert texts[0] == f"Chin: {len(found)} shapes, % of face height"
     assert texts[1:21:2] == [rig.shape_names[j] for j, _ in found[:10]]
     assert texts[2].endswith("locked") and not texts[4].endswith("locked")
     assert texts[-1] == f"and {len(found) - 10} more"
@@ -46,5 +46,5 @@ def test_shapes_are_listed_with_what_holds_them(texts: list[str]) -> None:
 
 def test_a_vertex_that_nothing_moves_says_so(texts: list[str]) -> None:
     rig = sheet()
-    vertex_card(rig, ShapeControl.of(rig), 7, [], 1.0)
-    assert texts == ["No shape moves vertex 7"]
+    vertex_card(rig, ShapeControl.of(rig), "hair", [], 1.0)
+    assert texts == ["No shape moves this place (hair)"]

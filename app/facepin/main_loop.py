@@ -131,6 +131,7 @@ def _loop(
     preferences, complaint = read_preferences(preferences_file) if preferences_file else (Preferences(), None)
     view.freedom, view.quality, view.ui_scale = preferences.freedom, preferences.quality, preferences.ui_scale
     view.theme_name, view.habit, view.lately = preferences.theme, preferences.habit, preferences.lately
+    view.steady = preferences.steady
     view.guide.step = preferences.guide
     if preferences.arrangement in ARRANGEMENTS:
         view.weights.arrangement = preferences.arrangement
@@ -247,6 +248,7 @@ def _remembered(preferences: Preferences, desk: Desk) -> Preferences:
         preferences,
         freedom=view.freedom,
         quality=view.quality,
+        steady=view.steady,
         ui_scale=view.ui_scale,
         theme=view.theme_name,
         habit=view.habit,

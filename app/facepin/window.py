@@ -44,6 +44,7 @@ _KEYS = {
     glfw.KEY_DELETE: "delete",
     glfw.KEY_BACKSPACE: "backspace",
     glfw.KEY_HOME: "home",
+    glfw.KEY_TAB: "tab",
     glfw.KEY_KP_DECIMAL: "numpad .",
     glfw.KEY_LEFT: "left",
     glfw.KEY_RIGHT: "right",
@@ -56,9 +57,10 @@ _KEYS = {
     **{glfw.KEY_0 + i: str(i) for i in range(10)},
     **{glfw.KEY_A + i: chr(ord("a") + i) for i in range(26)},
 }
-_HELD = ("left", "right", "up", "down", "page up", "page down")
+_MOVING = ("left", "right", "up", "down", "page up", "page down")
+_HELD = ("x", "y", *_MOVING)
 """Keys whose release is told, too: what they do goes on until then."""
-_REPEATED = ("z", "y", *_HELD)
+_REPEATED = ("z", "y", *_MOVING)
 """Keys that go on while they are held: undo and redo, and those that move something."""
 
 
@@ -275,7 +277,7 @@ class Window:
 
     def _on_cursor(self, _: object, x: float, y: float) -> None:
         self._cursor = (x * self.pixel_ratio, y * self.pixel_ratio)
-        self._events.append(PointerMoved(*self._cursor))
+        self._events.append(PointerMoved(*self._cursor, self._modifiers()))
 
     def _on_button(self, _: object, button: int, action: int, __: int) -> None:
         if button not in _BUTTONS:
@@ -294,14 +296,14 @@ class Window:
         # A panel may wait for any key to go down, to repeat or to go up: imgui knows which.
         self._events.append(Stirred())
         name = _KEYS.get(key)
-        if action == glfw.RELEASE:
-            if name in _HELD:
-                self._events.append(KeyReleased(name))
-            return
         if glfw.KEY_A <= key <= glfw.KEY_Z:
             # What the keyboard's own layout writes there: Ctrl+Z is where the user's Z is.
             written = glfw.get_key_name(key, scancode)
             name = written.lower() if written and written.isascii() and written.isalpha() else name
+        if action == glfw.RELEASE:
+            if name in _HELD:
+                self._events.append(KeyReleased(name))
+            return
         if action == glfw.REPEAT and name not in _REPEATED:
             return  # a picture is not saved thirty times a second because F12 was held
         if name is not None:

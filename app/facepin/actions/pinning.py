@@ -4,6 +4,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from facepin.core.errors import FacepinError
+from facepin.core.places import titles
 from facepin.core.pose import Pin, with_changed
 from facepin.desk.desk import Desk
 from facepin.panels.commands import Command
@@ -92,7 +93,8 @@ def _name(desk: Desk, pins: tuple[Pin, ...], vertex: int, name: str) -> None:
     """
     namesake = next((pin for pin in pins if name and pin.name == name and pin.vertex != vertex), None)
     if namesake is not None:
-        raise FacepinError(f"the pin on vertex {namesake.vertex} is called {name!r} already")
+        place = desk.stage.places.title(namesake.vertex) if desk.stage is not None else "another place"
+        raise FacepinError(f"the pin on {place} is called {name!r} already")
     named = with_changed(pins, {vertex}, lambda pin: replace(pin, name=name))
     desk.say("")
     if named != pins:
@@ -110,4 +112,10 @@ def _remove(desk: Desk, pins: tuple[Pin, ...], vertices: Collection[int]) -> Non
         desk.apply(Edit(f"Remove {amount(len(gone))}" if kept else "Remove all pins", True, kept))
     if locked:
         several = f"{len(locked)} pins are locked and stay"
-        desk.say(several if len(locked) > 1 else f"The pin is locked and stays ({locked[0].title})")
+        desk.say(
+            several if len(locked) > 1 else f"The pin is locked and stays{_called(desk, pins, locked[0])}"
+        )
+
+
+def _called(desk: Desk, pins: tuple[Pin, ...], pin: Pin) -> str:
+    return "" if desk.stage is None else f" ({titles(desk.stage.places, pins)[pin.vertex]})"

@@ -2,12 +2,18 @@
 
 from math import radians
 
-from facepin.core.camera import frame_points
+import numpy as np
+
+from facepin.core.camera import Camera, frame_points
+from facepin.core.face_view import MARGIN, expressive
 from facepin.desk.desk import Desk
+from facepin.desk.stage import Stage
 from facepin.panels.commands import VIEW_COMMANDS, Command
 from facepin.panels.requests import Request, ShadeAs
 
 STEP = radians(15)
+CLOSEST = 0.25
+"""Share of the height of the face that is seen at least: a single pin has no extent to be framed by."""
 TURNS: dict[Command, tuple[float, float]] = {
     Command.TURN_LEFT: (-STEP, 0.0),
     Command.TURN_RIGHT: (STEP, 0.0),
@@ -28,7 +34,7 @@ def act(request: Request, desk: Desk) -> bool:
     shown = desk.view.panes[active]
     match request:
         case Command.FRAME:
-            desk.look(frame_points(stage.positions(active), desk.viewport.aspect, desk.camera))
+            desk.look(_framed(desk, stage))
         case Command() if request in VIEW_COMMANDS:
             desk.look(desk.camera.looking(VIEW_COMMANDS[request]))
         case Command() if request in TURNS:
@@ -52,3 +58,18 @@ def act(request: Request, desk: Desk) -> bool:
             return False
     desk.say("")
     return True
+
+
+def _framed(desk: Desk, stage: Stage) -> Camera:
+    """Return the camera close to the selected pins, or to the part of the face that shapes move."""
+    session, viewport = stage.session, desk.viewport
+    positions = stage.positions(session.active)
+    selected = [pin.vertex for pin in session.pose.pins if pin.vertex in desk.tool.selected]
+    if not selected:
+        chosen = positions[expressive(session.rig)]
+        return frame_points(chosen, viewport.aspect, desk.camera, MARGIN)
+    points = positions[selected].astype(np.float64)
+    right, up, _ = desk.camera.axes
+    around = CLOSEST * session.rig.height / 2 * np.array([right, -right, up, -up])
+    points = np.concatenate([points, points.mean(axis=0) + around])
+    return frame_points(points, viewport.aspect, desk.camera, MARGIN)

@@ -35,6 +35,7 @@ class PointerMoved:
 
     x: float
     y: float
+    modifiers: Modifiers = NONE
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ class KeyPressed:
 
 @dataclass(frozen=True)
 class KeyReleased:
-    """A key that does more the longer it is held went up: an arrow key."""
+    """A key that does something as long as it is held went up: an arrow key, x, y."""
 
     key: str
 

@@ -1,6 +1,7 @@
 """Where to look at a face for its expression: at the part that shapes move."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats
 from facepin.core.camera import Camera, View, frame_points
@@ -14,12 +15,18 @@ STIRRED = 0.02
 
 
 def face_camera(rig: Rig, size: tuple[int, int], view: View = "front", margin: float = MARGIN) -> Camera:
-    """Return a camera that sees the part of the neutral that shapes move, in pictures of (width, height).
+    """Return a camera that sees the part of the neutral that shapes move, in pictures of (width, height)."""
+    aspect = size[0] / size[1]
+    camera = frame_points(rig.neutral, aspect, Camera(radius=0.0).looking(view))
+    chosen = expressive(rig)
+    return camera if chosen.all() else frame_points(rig.neutral[chosen], aspect, camera, margin)
+
+
+def expressive(rig: Rig) -> NDArray[np.bool_]:
+    """Return which vertices (n,) make the expression, as shapes move them; all where that is next to none.
 
     Shapes that move more than half of all vertices (to another build, say) count only if there are no others.
     """
-    aspect = size[0] / size[1]
-    camera = frame_points(rig.neutral, aspect, Camera(radius=0.0).looking(view))
     local, anywhere = np.zeros((2, rig.vertex_count), np.bool_)
     starts, rows, values = rig.deltas.indptr, rig.deltas.indices, rig.deltas.data
     for first, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True):
@@ -30,8 +37,8 @@ def face_camera(rig: Rig, size: tuple[int, int], view: View = "front", margin: f
             local[stirred] = True
     for chosen in (local, anywhere):
         if np.count_nonzero(chosen) > 2:
-            return frame_points(rig.neutral[chosen], aspect, camera, margin)
-    return camera
+            return chosen
+    return np.ones(rig.vertex_count, np.bool_)
 
 
 def _moves(vertices: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, Floats]:

@@ -83,10 +83,7 @@ def find_mirror(rig: Rig) -> Mirror:
     says no side is its own twin if it moves both sides alike; shapes with names that say nothing are paired
     where one clearly is the other's mirror image.
     """
-    middle = float(np.median(rig.neutral[:, 0])) if rig.vertex_count else 0.0
-    extent = np.ptp(rig.neutral[:, 0]) if rig.vertex_count else 0.0
-    if abs(middle) < 0.02 * extent:
-        middle = 0.0  # nearly all rigs stand in the middle of the world
+    middle = middle_of(rig)
     vertices = _twin_vertices(rig.neutral, middle, NEAR * rig.height)
     likeness, balance = _likeness(rig, vertices, middle)
     shapes, remarks = _twin_shapes(rig.shape_names, likeness)
@@ -97,6 +94,14 @@ def find_mirror(rig: Rig) -> Mirror:
         middle,
         tuple(remarks),
     )
+
+
+def middle_of(rig: Rig) -> float:
+    """Return x of the plane between left and right."""
+    middle = float(np.median(rig.neutral[:, 0])) if rig.vertex_count else 0.0
+    extent = np.ptp(rig.neutral[:, 0]) if rig.vertex_count else 0.0
+    # Nearly all rigs stand in the middle of the world.
+    return 0.0 if abs(middle) < 0.02 * extent else middle
 
 
 def swapped(name: str) -> str:

@@ -38,11 +38,6 @@ class Pin:
     hidden: bool = False
     """It constrains, but is neither seen nor pressed."""
 
-    @property
-    def title(self) -> str:
-        """Its name, or where it is."""
-        return self.name or f"vertex {self.vertex}"
-
 
 @dataclass(frozen=True, eq=False)
 class Pose:

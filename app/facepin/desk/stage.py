@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from time import perf_counter
 
 import moderngl
@@ -13,6 +14,7 @@ from facepin.core.control import ShapeControl
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.picking import pick
+from facepin.core.places import Places, find_places
 from facepin.core.pose import Pose
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
@@ -80,6 +82,11 @@ class Stage:
         rig = session.rig
         self._shown = [_Shown(Deformer(rig), NormalField(rig), PaneMesh(self._scene), HeatGauge(rig))]
         self.update()
+
+    @cached_property
+    def places(self) -> Places:
+        """What the places of the face are called."""
+        return find_places(self.session.rig)
 
     @property
     def refined(self) -> bool:

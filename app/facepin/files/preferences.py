@@ -27,6 +27,7 @@ class Preferences:
     """Rigs and scenes opened lately, newest first, absolute paths."""
     freedom: Freedom = "screen"
     quality: Quality = "auto"
+    steady: bool = True
     ui_scale: float = 1.0
     solver: str = "hand"
     theme: Theme = "dark"
@@ -53,6 +54,7 @@ _CHECKS: dict[str, Callable[[Any], bool]] = {
     "recent": lambda value: isinstance(value, list) and all(isinstance(entry, str) for entry in value),
     "freedom": lambda value: value in ("space", "screen"),
     "quality": lambda value: value in ("auto", *LEVELS),
+    "steady": lambda value: isinstance(value, bool),
     "ui_scale": lambda value: isinstance(value, int | float) and 0.5 <= value <= 4,
     "solver": lambda value: isinstance(value, str),
     "theme": lambda value: value in ("dark", "light"),

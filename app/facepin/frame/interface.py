@@ -10,6 +10,7 @@ from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 from facepin.core.measures import active, moves, percent
+from facepin.core.places import titles
 from facepin.core.pose import Pose
 from facepin.core.shape_motion import movers
 from facepin.desk.desk import Desk
@@ -21,7 +22,15 @@ from facepin.panels.chart import chart_window
 from facepin.panels.commands import Command
 from facepin.panels.filmstrip import filmstrip_window
 from facepin.panels.guide import Hand, draw_guide
-from facepin.panels.hand import draw_gesture, hidden_pins, pin_label, sketch_hint, symmetry_sign
+from facepin.panels.hand import (
+    aim_ring,
+    axis_line,
+    draw_gesture,
+    hidden_pins,
+    pin_label,
+    sketch_hint,
+    symmetry_button,
+)
 from facepin.panels.history import history_window
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
@@ -128,7 +137,8 @@ def panels(desk: Desk, scale: float) -> list[Request]:
     of_pins: Request | None = None
     if imgui.begin(layout.PINS)[0] and session is not None and desk.stage is not None:
         pins, positions = session.pose.pins, desk.stage.positions(session.active)
-        of_pins = pins_panel(session.rig, pins, positions, desk.tool.selected, desk.view.pins, theme)
+        called = titles(desk.stage.places, pins) if pins else {}
+        of_pins = pins_panel(session.rig, pins, called, positions, desk.tool.selected, desk.view.pins, theme)
         if desk.view.pins.hovered is not None:
             desk.tool.hovered = desk.view.pins.hovered
         layout.fit_height(layout.WEIGHTS, scale, list_height(len(pins)))
@@ -289,7 +299,7 @@ def over_picture(
     _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)
-    elif not desk.view.pins.sketching:
+    if not any(pin.hidden for pin in session.pose.pins) and not desk.view.pins.sketching:
         _first_steps(desk, session, viewport, pixel_ratio, scale)
     return asked
 
@@ -343,14 +353,24 @@ def _hand(
     pins = session.pose.pins
     hovered = next((pin for pin in pins if pin.vertex == desk.tool.hovered and not pin.hidden), None)
     if hovered is not None and not desk.tool.holding:
+        name = titles(stage.places, pins)[hovered.vertex]
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
-            pin_label(hovered, stage.positions(at), camera, place, pixel_ratio, scale)
+            pin_label(hovered, name, stage.positions(at), camera, place, pixel_ratio, scale)
+    if desk.tool.aim is not None and not desk.tool.holding:
+        for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
+            where = stage.positions(at), camera, place
+            aim_ring(desk.tool.aim, stage.places, *where, pixel_ratio, scale)
+    if desk.tool.line is not None:
+        axis, pressed = desk.tool.line
+        place = next((each for each in viewports if each.contains(*pressed)), viewport)
+        axis_line(axis, pressed, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
-    if desk.view.symmetric:
-        symmetry_sign(viewport, pixel_ratio, scale)
+    asked = symmetry_button(desk.view.symmetric, desk.view.habit, viewport, pixel_ratio, scale)
     hidden = sum(pin.hidden for pin in pins)
-    return hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) if hidden else None
+    if hidden:
+        asked = hidden_pins(hidden, desk.view.habit, viewport, pixel_ratio, scale) or asked
+    return asked
 
 
 def _vertex_under_mouse(
@@ -371,7 +391,7 @@ def _vertex_under_mouse(
             found = movers(stage.session.rig, vertex)
             view.marked = frozenset(j for j, _ in found)
             desk.view.panes[at].shape = found[0][0] if found else None
-            vertex_card(stage.session.rig, stage.session.control, vertex, found, scale)
+            vertex_card(stage.session.rig, stage.session.control, stage.places.title(vertex), found, scale)
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
@@ -386,6 +406,8 @@ def _pin_popup(desk: Desk, pose: Pose) -> Request | None:
         desk.view.pin_menu = None
         return None
     vertices = together(pin, desk.tool.selected)
-    request = pin_menu(pin, [other for other in pose.pins if other.vertex in vertices], desk.view.habit)
+    title = titles(desk.stage.places, pose.pins)[pin.vertex] if desk.stage is not None else pin.name
+    chosen = [other for other in pose.pins if other.vertex in vertices]
+    request = pin_menu(pin, chosen, title, desk.view.habit)
     imgui.end_popup()
     return request

@@ -133,11 +133,12 @@ class Router:
         if desk.tool.holding:
             return desk.tool.handle(event, self._sight(desk, stage, viewports, scale, self._pane))
         if self.navigator.holding:
+            desk.tool.look_away()
             self._navigate(event, desk, viewports)
             self._click_beside(event, desk, scale)
             return None
         if isinstance(event, PointerReleased) or imgui.get_io().want_capture_mouse:
-            desk.tool.hovered = None
+            desk.tool.look_away()
             return None
         under = [at for at, viewport in enumerate(viewports) if viewport.contains(event.x, event.y)]
         if not under or under[0] >= len(desk.cameras):
@@ -195,6 +196,8 @@ class Router:
             desk.view.pins.stroke if desk.view.pins.sketching else None,
             ("left", NONE) not in PRESETS[desk.view.habit].motions,
             stage.session.mirror if desk.view.symmetric else None,
+            desk.view.steady,
+            lambda _: stage.places,
         )
 
 

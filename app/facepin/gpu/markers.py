@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats, Points
 from facepin.core.camera import Camera, Viewport
-from facepin.core.pose import Pose
+from facepin.core.pose import Pin, Pose
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame
 from facepin.gpu.programs import load_program
@@ -80,6 +80,8 @@ def pin_markers(
 ) -> Markers:
     """Return markers for the pins of a pose on the vertices (n, 3) as posed, without those that are hidden.
 
+    The goal of a pin on the screen has no depth of its own: it is as deep as its vertex for the camera that
+    set it, so that a pin which is met looks met from everywhere.
     Pins that are held, hovered or selected are named by their vertices.
     """
 
@@ -93,11 +95,22 @@ def pin_markers(
     pins = [pin for pin in pose.pins if not pin.hidden]
     return Markers(
         positions[[pin.vertex for pin in pins]],
-        np.array([pin.goal for pin in pins], np.float32).reshape(-1, 3),
+        np.array([_seen_goal(pin, positions[pin.vertex]) for pin in pins], np.float32).reshape(-1, 3),
         np.array([state(pin.vertex) for pin in pins], np.uint8),
         np.array([marker_size(pin.stiffness) for pin in pins]),
         np.array([pin.locked for pin in pins], bool),
     )
+
+
+def _seen_goal(pin: Pin, vertex: Floats) -> Floats:
+    """Return where a goal is shown, (3,)."""
+    goal = np.array(pin.goal)
+    if pin.freedom == "space":
+        return goal
+    right, up = np.array(pin.axes)
+    deep = np.cross(right, up)
+    seen: Floats = goal + ((vertex - goal) @ deep) * deep
+    return seen
 
 
 class MarkerLayer:

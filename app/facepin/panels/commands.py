@@ -149,7 +149,12 @@ class Command(Enum):
     )
     FILMSTRIP = "Filmstrip of this work", ("F5",), "Poses", "The steps that led to this pose, as pictures."
     SAVE_FILMSTRIP = "Save the filmstrip", (), "Poses", "The steps that led to this pose, as one image."
-    FRAME = "Frame the face", ("F",), "View", "Brings the whole face into the picture."
+    FRAME = (
+        "Frame the face",
+        ("F",),
+        "View",
+        "Brings the part of the face that shapes move into the picture, or the selected pins.",
+    )
     FRONT = "Front", ("1", "Numpad 1"), "View", "Looks at the face from the front."
     LEFT = "Character's left", ("3", "Numpad 3"), "View", "Looks at the side that is left to the character."
     RIGHT = (

@@ -6,15 +6,22 @@ from imgui_bundle import imgui
 
 from facepin.core.arrays import Points
 from facepin.core.camera import Camera, Viewport
+from facepin.core.places import Places
 from facepin.core.pose import Pin
 from facepin.panels import layout
 from facepin.panels.commands import Command, key_of
 from facepin.panels.key_caps import caps_width, draw_caps
 from facepin.panels.theme import PICTURE, VEIL, packed, pop_picture_colours, push_picture_colours, tinted
+from facepin.session.aim import Aim
 from facepin.session.box import Box
+from facepin.session.course import Axis
 from facepin.session.gesture import Gesture
 from facepin.session.navigation import Habit
+from facepin.session.sight import Pixel
 from facepin.session.stroke import Stroke
+
+RING = 7.0
+"""Radius of the ring round what a press would take, at 1x scale."""
 
 
 def draw_gesture(gesture: Gesture | None, pixel_ratio: float, scale: float) -> None:
@@ -49,17 +56,63 @@ def draw_gesture(gesture: Gesture | None, pixel_ratio: float, scale: float) -> N
             pass
 
 
-def pin_label(
-    pin: Pin, positions: Points, camera: Camera, viewport: Viewport, pixel_ratio: float, scale: float
+def aim_ring(
+    aim: Aim,
+    places: Places,
+    positions: Points,
+    camera: Camera,
+    viewport: Viewport,
+    pixel_ratio: float,
+    scale: float,
 ) -> None:
-    """Write beside a pin what it is called and what is not usual about it; nothing where nothing is."""
-    words = [pin.name] * bool(pin.name)
+    """Draw a ring round the vertex that a press would take, what it is called, and how to get at another."""
+    x, y, _ = (camera.project(positions[[aim.vertices[0]]], viewport)[0] / pixel_ratio).tolist()
+    if x != x:
+        return
+    draw = imgui.get_background_draw_list()
+    _clip(draw, viewport, pixel_ratio)
+    for colour, width in ((packed((0, 0, 0, 0.55)), 3.5), (packed(PICTURE.text), 1.5)):
+        draw.add_circle(imgui.ImVec2(x, y), RING * scale, colour, 0, width * scale)
+    draw.pop_clip_rect()
+    text = places.title(aim.vertices[0])
+    if len(aim.vertices) > 1:
+        text += f"   Tab: {places.region(aim.vertices[1])}"
+    _label(text, x, y, viewport, pixel_ratio, scale)
+
+
+def axis_line(axis: Axis, pressed: Pixel, viewport: Viewport, pixel_ratio: float, scale: float) -> None:
+    """Draw the line through the press that a drag is kept on."""
+    x, y = pressed[0] / pixel_ratio, pressed[1] / pixel_ratio
+    left, top = viewport.x / pixel_ratio, viewport.y / pixel_ratio
+    right, bottom = left + viewport.width / pixel_ratio, top + viewport.height / pixel_ratio
+    ends = ((left, y), (right, y)) if axis == "x" else ((x, top), (x, bottom))
+    draw = imgui.get_background_draw_list()
+    for colour, width in ((packed((0, 0, 0, 0.35)), 3.0), (packed(PICTURE.accent, 0.9), 1.0)):
+        draw.add_line(imgui.ImVec2(*ends[0]), imgui.ImVec2(*ends[1]), colour, width * scale)
+
+
+def pin_label(
+    pin: Pin,
+    title: str,
+    positions: Points,
+    camera: Camera,
+    viewport: Viewport,
+    pixel_ratio: float,
+    scale: float,
+) -> None:
+    """Write beside a pin what it is called and what is not usual about it."""
+    words = [title]
     words += [f"stiffness {pin.stiffness:.3g}"] * (pin.stiffness != 1.0)
     words += ["on screen"] * (pin.freedom == "screen") + ["locked"] * pin.locked
     x, y, _ = (camera.project(positions[[pin.vertex]], viewport)[0] / pixel_ratio).tolist()
-    if not words or x != x:
+    if x != x:
         return
-    text, pad = "   ".join(words), 4 * scale
+    _label("   ".join(words), x, y, viewport, pixel_ratio, scale)
+
+
+def _label(text: str, x: float, y: float, viewport: Viewport, pixel_ratio: float, scale: float) -> None:
+    """Write beside a place, on a dark ground."""
+    pad = 4 * scale
     size = imgui.calc_text_size(text)
     corner = imgui.ImVec2(x + 14 * scale, y - size.y / 2)
     draw = imgui.get_background_draw_list()
@@ -91,26 +144,47 @@ def sketch_hint(count: int, habit: Habit, viewport: Viewport, pixel_ratio: float
     draw.add_text(imgui.ImVec2(x, middle - line / 2), packed(PICTURE.text), text)
 
 
-def symmetry_sign(viewport: Viewport, pixel_ratio: float, scale: float) -> None:
-    """Say in a corner of the picture that what is done to one side is done to both."""
-    text = "Symmetry"
-    size, pad = imgui.calc_text_size(text), 8 * scale
-    right = (viewport.x + viewport.width) / pixel_ratio - 8 * scale
-    bottom = (viewport.y + viewport.height) / pixel_ratio - 8 * scale
-    # Two wings and the line between them.
-    wing = 0.55 * size.y
-    wide = size.x + 2.6 * wing + 3 * pad
-    corner = imgui.ImVec2(right - wide, bottom - size.y - 2 * pad)
-    draw = imgui.get_background_draw_list()
-    draw.add_rect_filled(corner, imgui.ImVec2(right, bottom), packed(tinted(PICTURE.popup, VEIL)), 4 * scale)
-    x, y = corner.x + pad + 1.3 * wing, bottom - pad - size.y / 2
-    accent = packed(PICTURE.accent)
+def symmetry_button(
+    on: bool, habit: Habit, viewport: Viewport, pixel_ratio: float, scale: float
+) -> Command | None:
+    """Draw a button in a corner of the picture that says whether both sides do the same, and changes it."""
+    corner = imgui.ImVec2(
+        (viewport.x + viewport.width) / pixel_ratio - 8 * scale,
+        (viewport.y + viewport.height) / pixel_ratio - 8 * scale,
+    )
+    imgui.set_next_window_pos(corner, imgui.Cond_.always, imgui.ImVec2(1, 1))
+    imgui.set_next_window_bg_alpha(VEIL)
+    push_picture_colours()
+    imgui.push_style_var(imgui.StyleVar_.window_padding, imgui.ImVec2(4 * scale, 4 * scale))
+    imgui.push_style_var(imgui.StyleVar_.window_rounding, 4 * scale)
+    imgui.push_style_var(imgui.StyleVar_.window_border_size, 0.0)
+    imgui.begin("##symmetry", None, layout.SIGN)
+    imgui.pop_style_var(3)
+    text = f"Symmetry {'on' if on else 'off'}"
+    wing = 0.55 * imgui.get_text_line_height()
+    pad = imgui.get_style().frame_padding
+    start = imgui.get_cursor_screen_pos()
+    width = imgui.calc_text_size("Symmetry off").x + 2.6 * wing + 3 * pad.x
+    asked = imgui.button("##symmetry", imgui.ImVec2(width, imgui.get_frame_height()))
+    key = key_of(Command.SYMMETRY, habit)
+    imgui.set_item_tooltip(f"{Command.SYMMETRY.help}\n{key}")
+    draw = imgui.get_window_draw_list()
+    x, y = start.x + pad.x + 1.3 * wing, start.y + imgui.get_frame_height() / 2
+    colour = packed(PICTURE.accent) if on else imgui.get_color_u32(imgui.Col_.text_disabled)
     for side in (-1, 1):
         near, far = x + side * 0.35 * wing, x + side * 1.2 * wing
         upper, lower = imgui.ImVec2(far, y - 0.7 * wing), imgui.ImVec2(far, y + 0.7 * wing)
-        draw.add_triangle_filled(imgui.ImVec2(near, y), upper, lower, accent)
-    draw.add_line(imgui.ImVec2(x, y - 0.8 * wing), imgui.ImVec2(x, y + 0.8 * wing), accent, scale)
-    draw.add_text(imgui.ImVec2(right - pad - size.x, bottom - pad - size.y), packed(PICTURE.text), text)
+        if on:
+            draw.add_triangle_filled(imgui.ImVec2(near, y), upper, lower, colour)
+        else:
+            draw.add_triangle(imgui.ImVec2(near, y), upper, lower, colour, scale)
+    draw.add_line(imgui.ImVec2(x, y - 0.8 * wing), imgui.ImVec2(x, y + 0.8 * wing), colour, scale)
+    ink = imgui.get_color_u32(imgui.Col_.text if on else imgui.Col_.text_disabled)
+    at = imgui.ImVec2(start.x + 2.6 * wing + 2 * pad.x, start.y + pad.y)
+    draw.add_text(at, ink, text)
+    imgui.end()
+    pop_picture_colours()
+    return Command.SYMMETRY if asked else None
 
 
 def hidden_pins(

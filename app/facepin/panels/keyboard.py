@@ -24,12 +24,13 @@ Line = tuple[tuple[str, ...], str]
 HAND: tuple[Line, ...] = (
     (("Click on the face",), "Place a pin"),
     (("Drag",), "Move a pin: the face follows"),
+    (("Hold Shift",), "While dragging: a fifth as fast"),
+    (("Hold X", "Hold Y"), "While dragging: along one axis"),
+    (("Tab",), "Other lip or lid under the mouse"),
     (("Shift+Click a pin",), "Select one more"),
     (("Right click a pin",), "What it holds; lock, hide"),
-    (("Arrows",), "Nudge selected pins by a pixel"),
-    (("Shift+Arrows",), "Nudge them by ten"),
-    (("Page up",), "Nudge them away"),
-    (("Page down",), "Nudge them nearer"),
+    (("Arrows",), "Nudge selected pins; Shift: tenfold"),
+    (("Page up", "Page down"), "Nudge them away, nearer"),
     (("Esc",), "Give up the drag in hand"),
     (("Hold Ctrl",), "Which shapes move this point"),
 )

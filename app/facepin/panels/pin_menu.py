@@ -12,7 +12,7 @@ from facepin.panels.requests import NamePin, RemovePins, Request, SetPins
 from facepin.session.navigation import Habit
 
 
-def pin_menu(pin: Pin, pins: Collection[Pin], habit: Habit) -> Request | None:
+def pin_menu(pin: Pin, pins: Collection[Pin], title: str, habit: Habit) -> Request | None:
     """Draw the inside of the menu of a pin; return what the user changes, or None.
 
     Parameters
@@ -21,6 +21,8 @@ def pin_menu(pin: Pin, pins: Collection[Pin], habit: Habit) -> Request | None:
         The one that was clicked.
     pins : Pins
         Those that change with it, it among them.
+    title : str
+        What it is called.
     habit : str
         Whose keys are named.
     """
@@ -30,7 +32,8 @@ def pin_menu(pin: Pin, pins: Collection[Pin], habit: Habit) -> Request | None:
     if len(pins) > 1:
         imgui.text_disabled(f"{len(pins)} pins")
     else:
-        imgui.text_disabled(f"Pin on vertex {pin.vertex}")
+        imgui.text_disabled(title)
+        imgui.set_item_tooltip(f"Vertex {pin.vertex}")
         imgui.set_next_item_width(12 * imgui.get_font_size())
         flags = imgui.InputTextFlags_.enter_returns_true
         entered, name = imgui.input_text_with_hint("##name", "name", pin.name, flags)

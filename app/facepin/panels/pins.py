@@ -1,6 +1,6 @@
 """The list of pins: what each is called, what it holds and how far its vertex is from its goal."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from imgui_bundle import imgui
@@ -58,6 +58,7 @@ def together(pin: Pin, selected: Collection[int]) -> frozenset[int]:
 def pins_panel(
     rig: Rig,
     pins: tuple[Pin, ...],
+    titles: Mapping[int, str],
     positions: Points,
     selected: Collection[int],
     view: PinsView,
@@ -71,6 +72,8 @@ def pins_panel(
         What they are on.
     pins : tuple of Pin
         Those of all panes.
+    titles : by vertex
+        What they are called.
     positions : (n, 3) float32
         The vertices of the pane whose errors are shown.
     selected : vertices
@@ -108,7 +111,8 @@ def pins_panel(
     while clipper.step():
         for row in range(clipper.display_start, clipper.display_end):
             imgui.push_id(pins[row].vertex)
-            request = _row(pins, row, percent(errors[row], rig.height), selected, view, theme) or request
+            off = percent(errors[row], rig.height)
+            request = _row(pins, titles, row, off, selected, view, theme) or request
             imgui.pop_id()
     imgui.end_table()
     return request
@@ -150,6 +154,7 @@ def _titles() -> None:
 
 def _row(
     pins: tuple[Pin, ...],
+    titles: Mapping[int, str],
     row: int,
     error: float,
     selected: Collection[int],
@@ -160,7 +165,7 @@ def _row(
     pin = pins[row]
     imgui.table_next_row()
     imgui.table_next_column()
-    request = _name(pins, row, selected, view)
+    request = _name(pins, titles[pin.vertex], row, selected, view)
     vertices = together(pin, selected)
     imgui.table_next_column()
     if _quiet_button(pin.freedom):
@@ -196,7 +201,9 @@ def _row(
     return request
 
 
-def _name(pins: tuple[Pin, ...], row: int, selected: Collection[int], view: PinsView) -> Request | None:
+def _name(
+    pins: tuple[Pin, ...], title: str, row: int, selected: Collection[int], view: PinsView
+) -> Request | None:
     """Draw the name of a pin, on which a click selects and a double click renames."""
     pin = pins[row]
     if view._renaming == pin.vertex:
@@ -206,12 +213,12 @@ def _name(pins: tuple[Pin, ...], row: int, selected: Collection[int], view: Pins
     imgui.push_style_var(imgui.StyleVar_.selectable_text_align, imgui.ImVec2(0, 0.5))
     colour = imgui.get_style_color_vec4(imgui.Col_.text_disabled if pin.hidden else imgui.Col_.text)
     imgui.push_style_color(imgui.Col_.text, colour)
-    shown = shortened(pin.title, imgui.get_content_region_avail().x)
+    shown = shortened(title, imgui.get_content_region_avail().x)
     size = imgui.ImVec2(0, imgui.get_frame_height())
     clicked, _ = imgui.selectable(f"{shown}###row", pin.vertex in selected, flags, size)
     imgui.pop_style_color()
     imgui.pop_style_var()
-    imgui.set_item_tooltip(f"{pin.title}\nDouble click: another name")
+    imgui.set_item_tooltip(f"{title} (vertex {pin.vertex})\nDouble click: another name")
     if imgui.is_item_hovered():
         view.hovered = pin.vertex
     if not clicked:

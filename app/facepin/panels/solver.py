@@ -1,4 +1,4 @@
-"""The solver panel: which solver, what it trades for what, and behind a fold the figures for who studies it."""
+"""The solver panel: which solver, what it trades for what, and behind a fold figures for who studies it."""
 
 import dataclasses
 from collections.abc import Iterator, Mapping

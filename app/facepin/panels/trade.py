@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import Field
 from math import exp, log
-from typing import Any
+from typing import Any, cast
 
 from imgui_bundle import imgui
 
@@ -39,7 +39,7 @@ def value_at(share: float, about: Mapping[str, Any], usual: float) -> float:
         return float(low if share <= 0.0 else high)
     first = _first(about, usual)
     value = first * exp(share * log(high / first)) if about["log"] else low + share * (high - low)
-    return min(max(float(f"{value:.3g}"), low), high)
+    return float(min(max(float(f"{value:.3g}"), low), high))
 
 
 def _first(about: Mapping[str, Any], usual: float) -> float:
@@ -51,7 +51,7 @@ def trade_slider(field: "Field[Any]", value: float) -> tuple[float, bool] | None
 
     Whole numbers stay whole.  A double click goes back to the default, which has a mark.
     """
-    about, usual = field.metadata, field.default
+    about, usual = field.metadata, cast(float, field.default)
     before = share_of(value, about, usual)
     imgui.set_next_item_width(-1)
     flags = imgui.SliderFlags_.always_clamp | imgui.SliderFlags_.no_input

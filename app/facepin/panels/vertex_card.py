@@ -14,7 +14,7 @@ BAR = 60.0
 
 
 def vertex_card(
-    rig: Rig, control: ShapeControl, vertex: int, movers: Sequence[tuple[int, float]], scale: float
+    rig: Rig, control: ShapeControl, place: str, movers: Sequence[tuple[int, float]], scale: float
 ) -> None:
     """Draw the shapes that move a vertex, strongest first.
 
@@ -22,8 +22,8 @@ def vertex_card(
     ----------
     rig, control
         Names and height; which shapes are locked or silent.
-    vertex : int
-        What is under the mouse.
+    place : str
+        What that vertex is called: what is under the mouse.
     movers : sequence of (shape, length)
         As `facepin.core.shape_motion.movers` finds them.
     scale : float
@@ -31,12 +31,11 @@ def vertex_card(
     """
     imgui.begin_tooltip()
     if not movers:
-        imgui.text_disabled(f"No shape moves vertex {vertex}")
+        imgui.text_disabled(f"No shape moves this place ({place})")
         imgui.end_tooltip()
         return
-    imgui.text_disabled(
-        f"Vertex {vertex}: {len(movers)} shape{'s' if len(movers) > 1 else ''}, % of face height"
-    )
+    title = f"{place[:1].upper()}{place[1:]}"
+    imgui.text_disabled(f"{title}: {len(movers)} shape{'s' if len(movers) > 1 else ''}, % of face height")
     draw, strongest = imgui.get_window_draw_list(), movers[0][1]
     bars = max(imgui.calc_text_size(rig.shape_names[j]).x for j, _ in movers[:MOST_LISTED]) + 12 * scale
     for j, length in movers[:MOST_LISTED]:

@@ -112,6 +112,8 @@ class View:
     """What new pins constrain."""
     symmetric: bool = False
     """Whether pins and sliders move their twins on the other side."""
+    steady: bool = True
+    """Whether a drag stays where the hand but trembles."""
     quality: Quality = "auto"
     ui_scale: float = 1.0
     """Size of text and panels, times what the screen asks for."""
@@ -184,6 +186,11 @@ CHOICES: dict[str, Choice] = {
         "New pins",
         {freedom: title for freedom, title in FREEDOMS.items()},
         "Whether the next pin holds its depth too.",
+    ),
+    "steady": Choice(
+        "Steady hand",
+        {True: "On", False: "Off"},
+        "A drag takes no notice of a hand that trembles by less than a pixel.",
     ),
     "linked": Choice(
         "Cameras",

@@ -12,14 +12,16 @@ from facepin.core.events import (
     PointerReleased,
 )
 from facepin.core.pose import Pin
+from facepin.session.aim import Aim, aim_at
 from facepin.session.box import span
+from facepin.session.course import SLACK, Axis, Course
 from facepin.session.edit import Edit
 from facepin.session.gesture import Gesture
 from facepin.session.hold import Hold, take
 from facepin.session.mirroring import with_twins
 from facepin.session.moving import movable
 from facepin.session.nudge import Nudge, Step, step_of
-from facepin.session.sight import Sight, pin_at
+from facepin.session.sight import Pixel, Sight, pin_at
 from facepin.session.stroke import sketch
 
 
@@ -31,6 +33,8 @@ class DragTool:
     """Vertices of the selected pins."""
     hovered: int | None = None
     """Vertex of the pin under the mouse."""
+    aim: Aim | None = None
+    """What a press would take where no pin is under the mouse."""
     gesture: Gesture | None = None
     """What is going on from press to release."""
     remark: str = ""
@@ -38,6 +42,12 @@ class DragTool:
     _before: frozenset[int] = frozenset()
     """What was selected when the gesture began."""
     _nudge: Nudge | None = field(default=None)
+    _course: Course | None = None
+    """The way of the mouse while pins are in the hand."""
+    _preferred: str = ""
+    """The region that was chosen where two are under the mouse."""
+    _pointed: Pixel | None = None
+    """Where the mouse was last without a button held."""
     _began: Sight | None = field(default=None)
     """What was seen when pins began to be moved: their twins start from there too."""
 
@@ -70,13 +80,26 @@ class DragTool:
         match event:
             case PointerPressed(button="left") if self.gesture is None:
                 return self._press(event, sight)
-            case PointerMoved(x, y) if self.gesture is not None:
-                return self._listened(self.gesture, self.gesture.move((x, y)))
+            case PointerMoved(x, y, modifiers) if self.gesture is not None:
+                pixel = self._led((x, y), fine=modifiers.shift)
+                return self._listened(self.gesture, self.gesture.move(pixel))
             case PointerReleased(x, y, "left") if self.gesture is not None:
-                gesture, self.gesture = self.gesture, None
-                return self._listened(gesture, gesture.release((x, y)))
+                pixel = self._led((x, y))
+                gesture, self.gesture, self._course = self.gesture, None, None
+                return self._listened(gesture, gesture.release(pixel))
             case PointerMoved(x, y):
-                self.hovered = pin_at(sight, (x, y))
+                self._pointed = (x, y)
+                self.hovered, self.aim = self._under((x, y), sight)
+            case KeyPressed(key="x" | "y" as axis) if self._course is not None and self.gesture is not None:
+                self._course.axis = axis
+                return self._listened(self.gesture, self.gesture.move(self._course.pixel))
+            case KeyReleased(key="x" | "y" as axis) if self._course is not None and self.gesture is not None:
+                if self._course.axis != axis:
+                    return None
+                self._course.axis = None
+                return self._listened(self.gesture, self.gesture.move(self._course.pixel))
+            case KeyPressed(key="tab") if self.gesture is None and self._pointed is not None:
+                self._choose(sight)
             case KeyPressed(key="escape"):
                 self._give_up()
             case KeyPressed(key) if self.gesture is None and (step := step_of(event)) is not None:
@@ -84,6 +107,42 @@ class DragTool:
             case KeyReleased(key) if self._nudge is not None:
                 self._nudge.release(key)
         return None
+
+    @property
+    def line(self) -> tuple[Axis, Pixel] | None:
+        """The axis that the drag is kept on and where the press was, while a key asks for it."""
+        course = self._course
+        return None if course is None or course.axis is None else (course.axis, course.pressed)
+
+    def look_away(self) -> None:
+        """Forget what is under the mouse: it is elsewhere, or the face is seen from elsewhere."""
+        self.hovered = self.aim = self._pointed = None
+
+    def _led(self, pixel: Pixel, *, fine: bool | None = None) -> Pixel:
+        return pixel if self._course is None else self._course.lead(pixel, fine=fine)
+
+    def _under(self, pixel: Pixel, sight: Sight) -> tuple[int | None, Aim | None]:
+        """Return the pin under a pixel, or what a press there would take."""
+        pin, places = pin_at(sight, pixel), sight.places
+        if pin is not None and self._preferred in ("", places.region(pin)):
+            return pin, None
+        aim = aim_at(sight, pixel, self._preferred)
+        chosen = aim is not None and places.region(aim.vertices[0]) == self._preferred
+        if not chosen:
+            self._preferred = ""
+        return (None, aim) if chosen or pin is None else (pin, None)
+
+    def _choose(self, sight: Sight) -> None:
+        """Go on to the next of what is under the mouse: from the upper lip to the lower one."""
+        if self._pointed is None:
+            return
+        here = self.hovered
+        if here is None and self.aim is not None:
+            here = self.aim.vertices[0]
+        aim = aim_at(sight, self._pointed, "" if here is None else sight.places.region(here))
+        if aim is not None and len(aim.vertices) > 1:
+            self._preferred = sight.places.region(aim.vertices[1])
+            self.hovered, self.aim = self._under(self._pointed, sight)
 
     def settle(self, now: float) -> Edit | None:
         """Return what keys have moved as one undo step, once they rest; `now` is a clock in seconds."""
@@ -117,18 +176,23 @@ class DragTool:
         if event.modifiers.control:
             self.gesture = span(pixel, sight, self.selected, adds=adds)
             return None
-        vertex = pin_at(sight, pixel)
+        vertex, aim = self._under(pixel, sight)
+        self.aim = None
         if vertex is None and (hit := sight.hit(pixel)) is not None:
-            vertex = hit.vertex
+            vertex = hit.vertex if aim is None else aim.vertices[0]
             if sight.stroke is not None:
                 self.gesture = sketch(pixel, sight.stroke, sight, self.selected if adds else frozenset())
                 return None
+            if aim is None:
+                self.remark = sight.places.unmoved(vertex)
+                vertex = None  # to the hand it is as if nothing were there
         if vertex is None:
             if adds or sight.beside:
                 self.gesture = span(pixel, sight, self.selected, adds=adds, keeps=adds)
             return None
         hold = take(vertex, pixel, sight, self.selected, adds=adds)
         self.gesture = hold
+        self._course = Course(pixel, SLACK * sight.scale if sight.steady else 0.0, coarse=adds)
         return self._listened(hold, Edit("Place pin", False, hold.pins) if hold.placed else None)
 
     def _listened(self, gesture: Gesture, edit: Edit | None) -> Edit | None:
@@ -139,7 +203,7 @@ class DragTool:
 
     def _give_up(self) -> None:
         if self.gesture is not None:
-            self.gesture, self.selected = None, self._before
+            self.gesture, self.selected, self._course = None, self._before, None
         elif self._nudge is not None:
             self._nudge = None
         else:

@@ -40,13 +40,11 @@ class Hold:
             if not self.sight.apart(pixel, self.pressed):
                 return None
             self.moved = True
-            self.remark = _refusal(self.pin)
+            self.remark = _refusal(self.pin, self.sight)
         return self._dragged(pixel, final=False)
 
     def release(self, pixel: Pixel) -> Edit | None:
         """Let go."""
-        if self.placed and not self.sight.rig.rows_at([self.pin.vertex]).any():
-            self.remark = "No shape of this rig moves the point under the new pin"
         if self.moved:
             return self._dragged(pixel, final=True)
         self.selected = self.clicked
@@ -91,14 +89,14 @@ def take(vertex: int, pressed: Pixel, sight: Sight, selected: frozenset[int], *,
         return Hold(pin, pins, placed, pressed, sight, selected, selected - one if adds else one)
     now = selected | one if adds else one
     if pin.hidden:
-        return Hold(pin, pins, placed, pressed, sight, selected, selected, remark=_refusal(pin))
+        return Hold(pin, pins, placed, pressed, sight, selected, selected, remark=_refusal(pin, sight))
     return Hold(pin, pins, placed, pressed, sight, now, now)
 
 
-def _refusal(pin: Pin) -> str:
+def _refusal(pin: Pin, sight: Sight) -> str:
     """Say why a pin doesn't move; nothing where it does."""
     if pin.hidden:
-        return f"A hidden pin holds this point ({pin.title}): show hidden pins to drag it"
+        return f"A hidden pin holds this point ({sight.title(pin)}): show hidden pins to drag it"
     if pin.locked:
-        return f"This pin is locked ({pin.title}): unlock it to drag it (right click, or L)"
+        return f"This pin is locked ({sight.title(pin)}): unlock it to drag it (right click, or L)"
     return ""

@@ -1,6 +1,8 @@
 """What a pane shows, as far as the hand in it is concerned: what lies under a pixel."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from math import hypot
 
 import numpy as np
@@ -9,6 +11,7 @@ from facepin.core.arrays import Indices, Points
 from facepin.core.camera import Camera, Viewport
 from facepin.core.mirror import Mirror
 from facepin.core.picking import Hit, pick
+from facepin.core.places import Places, find_places, titles
 from facepin.core.pose import Freedom, Pin, Pose, as_vector
 from facepin.core.rig import Rig
 
@@ -45,6 +48,21 @@ class Sight:
     """Whether a drag beside the face selects with a rubber band; else it is left to the camera."""
     mirror: Mirror | None = None
     """Left and right of the rig, where twins of pins move along."""
+
+    steady: bool = False
+    """Whether the goal is to stay where the hand but trembles."""
+    find_places: Callable[[Rig], Places] = find_places
+    """Names the places of the rig; whoever has them already gives them."""
+
+    @cached_property
+    def places(self) -> Places:
+        """What the places of the face are called."""
+        return self.find_places(self.rig)
+
+    def title(self, pin: Pin) -> str:
+        """Return what a pin is called among all."""
+        pins = self.pose.pins
+        return titles(self.places, pins if pin in pins else (*pins, pin))[pin.vertex]
 
     @property
     def shown_pins(self) -> tuple[Pin, ...]:

@@ -222,8 +222,8 @@ class _Rest:
     def allowed(self, wanted: Floats, in_hand: NDArray[np.bool_]) -> float:
         """Return the far motion that is not minded, for a pull (r,): nearly none for a nudge."""
         way = float(np.linalg.norm(wanted[in_hand])) / self._hands**0.5
-        share = min(1.0, way / (2 * ALLOWED * self._height))
-        return ALLOWED * self._height * share * share
+        share: float = min(1.0, way / (2 * ALLOWED * self._height))
+        return ALLOWED * float(self._height) * share * share
 
     def broken(self, change: Floats, share: Floats, allowed: float) -> Floats | None:
         """Return the row (k,) that pulls back the place that goes furthest too far, if one does."""

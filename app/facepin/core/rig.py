@@ -130,7 +130,7 @@ class Rig:
     @cached_property
     def sentinels(self) -> Sentinels:
         """Places that stand for the whole face; found when first needed."""
-        return find_sentinels(self.deltas, self.neutral, self.shape_count, self.height)
+        return find_sentinels(self.deltas, self.columns, self.neutral, self.shape_count, self.height)
 
     @cached_property
     def fingerprint(self) -> str:

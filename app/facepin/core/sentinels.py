@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Points
+from facepin.core.columns import Columns
 
 CELL = 0.035
 """Edge of the cells of space that have one place each, as a share of the face height."""
@@ -48,12 +49,16 @@ class Sentinels:
         return np.union1d(among[np.unique(most[moved])], among[::EVERY])
 
 
-def find_sentinels(deltas: csc_array, neutral: Points, shapes: int, height: float) -> Sentinels:
+def find_sentinels(
+    deltas: csc_array, columns: Columns, neutral: Points, shapes: int, height: float
+) -> Sentinels:
     """Choose a place in every cell of space where something moves: the one that moves most.
 
     Parameters
     ----------
     deltas : (3n, k + c) csc_array
+    columns
+        The same, stored for fast products.
     neutral : (n, 3) float32
     shapes : int
         k, the columns that are shapes and not combinations.
@@ -68,10 +73,12 @@ def find_sentinels(deltas: csc_array, neutral: Points, shapes: int, height: floa
     chosen = np.sort(order[first])
     chosen = chosen[motion[chosen] > 0.0]
     wanted = (3 * chosen[:, None] + np.arange(3)).ravel()
-    rows = np.asarray(deltas.tocsr()[wanted].toarray(), np.float32).reshape(len(chosen), 3, -1)
-    alone = rows[:, :, :shapes].astype(np.float64)
-    flat = alone.reshape(-1, shapes)
+    rows = columns.rows(wanted).reshape(len(chosen), 3, -1)
+    alone = rows[:, :, :shapes]
+    flat = alone.reshape(3 * len(chosen), shapes)
     norms = np.sqrt(np.einsum("ij,ij->j", flat, flat))
     scale = np.divide(1.0, norms, out=np.zeros(shapes), where=norms > 0)
     likeness = (flat.T @ flat) * scale * scale[:, None]
-    return Sentinels(neutral[chosen], rows, np.sqrt(np.einsum("sij,sij->sj", alone, alone)), likeness)
+    return Sentinels(
+        neutral[chosen], rows.astype(np.float32), np.sqrt(np.einsum("sij,sij->sj", alone, alone)), likeness
+    )

@@ -3,11 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from threading import Thread
 from time import perf_counter
 
 import moderngl
 import numpy as np
 
+from facepin.core.answering import answering
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.camera import Camera, Viewport
 from facepin.core.control import ShapeControl
@@ -16,6 +18,7 @@ from facepin.core.normals import NormalField
 from facepin.core.picking import pick
 from facepin.core.places import Places, find_places
 from facepin.core.pose import Pose
+from facepin.core.rig import Rig
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame
@@ -81,6 +84,8 @@ class Stage:
         """For portraits."""
         rig = session.rig
         self._shown = [_Shown(Deformer(rig), NormalField(rig), PaneMesh(self._scene), HeatGauge(rig))]
+        # So that the first press need not wait for what a hand asks of a face.
+        Thread(target=_get_ready, args=(rig,), name="get ready for a hand", daemon=True).start()
         self.update()
 
     @cached_property
@@ -341,3 +346,10 @@ class Stage:
 
 def _markers(pose: Pose, positions: Points, tool: DragTool) -> Markers:
     return pin_markers(pose, positions, held=tool.held, hovered=tool.hovered, selected=tool.selected)
+
+
+def _get_ready(rig: Rig) -> None:
+    """Find what is found once per rig when a hand takes it for the first time."""
+    if rig.vertex_count and rig.shape_count:
+        answering(rig, [0])
+        _ = rig.sentinels

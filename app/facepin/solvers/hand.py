@@ -49,6 +49,7 @@ class HandSettings:
         "shapes, less follows closer.",
         low=0.0,
         high=1.0,
+        ends=("follow closely", "few shapes"),
     )
     along: float = setting(
         0.5,
@@ -56,6 +57,7 @@ class HandSettings:
         "more lets the pin follow closer; 3 lets all go along.",
         low=0.0,
         high=FREE,
+        ends=("leave the rest alone", "follow closely"),
     )
 
 
@@ -280,7 +282,7 @@ def _each_row(system: PinSystem) -> Grasp:
 
 KIND = SolverKind(
     key="hand",
-    title="Hand",
+    title="Follow the mouse (hand)",
     summary="The point in the hand follows the mouse, the rest of the face stays, and few shapes are used.",
     settings=HandSettings,
     prepare=prepare,

@@ -85,6 +85,10 @@ class DragTool:
                 self._nudge.release(key)
         return None
 
+    def begin(self, gesture: Gesture) -> None:
+        """Go on with a gesture that began on something else than the face or a pin."""
+        self._before, self.gesture = self.selected, gesture
+
     def settle(self, now: float) -> Edit | None:
         """Return what keys have moved as one undo step, once they rest; `now` is a clock in seconds."""
         return self.finish() if self._nudge is not None and self._nudge.rests(now) else None

@@ -29,7 +29,7 @@ CUSTOMARY: dict[Way, float] = {
     "up": radians(25),
     "down": radians(30),
 }
-"""How far ARKit's shapes turn an eye at weight 1, about; taken where no eyeball turns that can be measured."""
+"""How far ARKit's shapes turn an eye at weight 1, about; taken where no eyeball turns that could be told."""
 IN_FRONT = 0.4
 """How far before the eyes their handle is, as a share of the height of the model."""
 
@@ -170,7 +170,7 @@ def aimed(gaze: Gaze, weights: Floats, yaw: float, pitch: float, control: ShapeC
             fixed = sum(sign * turn * weights[j] for j, turn, sign in ways if j >= 0 and control.locked[j])
             for j, turn, sign in free:
                 low, high = control.limits[j]
-                result[j] = np.clip(max(sign * (angle - fixed), 0.0) / turn, low, high)
+                result[j] = np.clip(max(sign * (angle - fixed), 0.0) / turn, low, high) + 0.0  # no -0
     return result
 
 

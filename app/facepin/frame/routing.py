@@ -32,7 +32,7 @@ from facepin.session.nudge import goes_on
 from facepin.session.sight import DEAD_ZONE, Pixel, Sight, pin_at
 
 DOUBLE_CLICK = 0.35
-"""Seconds between two presses that are one double click."""
+"""Seconds from the end of a click to the press that makes it a double click."""
 FUNCTION_KEYS = frozenset(f"f{number}" for number in range(1, 13))
 
 
@@ -44,8 +44,8 @@ class Router:
         self._pane = 0
         self._beside: Pixel | None = None
         """Where the mouse went down beside the face."""
-        self._gaze_pressed = -DOUBLE_CLICK
-        """When the mouse went down on the handle of the eyes."""
+        self._gaze_clicked = -DOUBLE_CLICK
+        """When the handle of the eyes was clicked."""
 
     def take(
         self, events: Sequence[Event], desk: Desk, viewports: Sequence[Viewport], scale: float
@@ -137,7 +137,11 @@ class Router:
         scale: float,
     ) -> Edit | None:
         if desk.tool.holding:
-            return desk.tool.handle(event, self._sight(desk, stage, viewports, scale, self._pane))
+            gesture = desk.tool.gesture
+            edit = desk.tool.handle(event, self._sight(desk, stage, viewports, scale, self._pane))
+            if edit is None and isinstance(gesture, GazeHold) and not desk.tool.holding:
+                self._gaze_clicked = monotonic()
+            return edit
         if self.navigator.holding:
             self._navigate(event, desk, viewports)
             self._click_beside(event, desk, scale)
@@ -176,9 +180,8 @@ class Router:
 
     def _take_gaze(self, gaze: Gaze, pixel: Pixel, desk: Desk, stage: Stage, sight: Sight) -> Edit | None:
         """Take hold of the handle of the eyes; a double click lets them look ahead."""
-        before, self._gaze_pressed = self._gaze_pressed, monotonic()
         control = stage.session.control
-        if self._gaze_pressed - before < DOUBLE_CLICK:
+        if monotonic() - self._gaze_clicked < DOUBLE_CLICK:
             return straightened(gaze, sight.pose.weights, control)
         desk.tool.begin(GazeHold(gaze, control, sight, pixel, desk.tool.selected))
         return None

@@ -30,8 +30,6 @@ HAND: tuple[Line, ...] = (
     (("Shift+Arrows",), "Nudge them by ten"),
     (("Page up",), "Nudge them away"),
     (("Page down",), "Nudge them nearer"),
-    (("Drag the eye",), "Both eyes look there"),
-    (("Double click the eye",), "They look ahead"),
     (("Esc",), "Give up the drag in hand"),
     (("Hold Ctrl",), "Which shapes move this point"),
 )

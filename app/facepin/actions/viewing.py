@@ -50,6 +50,8 @@ def act(request: Request, desk: Desk) -> bool:
             shown.wireframe = not shown.wireframe
         case Command.GHOST:
             shown.next_ghost(has_reference=stage.session.work.reference is not None)
+        case Command.GAZE:
+            desk.view.gaze.shown = not desk.view.gaze.shown
         case Command.CHART:
             desk.view.chart = not desk.view.chart
         case Command.HISTORY:

@@ -9,6 +9,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
+from facepin.core.gaze import find_gaze
 from facepin.core.measures import active, moves, percent
 from facepin.core.places import titles
 from facepin.core.pose import Pose
@@ -21,6 +22,7 @@ from facepin.panels.about import about_window
 from facepin.panels.chart import chart_window
 from facepin.panels.commands import Command
 from facepin.panels.filmstrip import filmstrip_window
+from facepin.panels.gaze import draw_gaze
 from facepin.panels.guide import Hand, draw_guide
 from facepin.panels.hand import (
     aim_ring,
@@ -49,6 +51,7 @@ from facepin.panels.tidy import LABEL, Tidied, tidy_card
 from facepin.panels.vertex_card import vertex_card
 from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
+from facepin.session.gaze import GazeHold
 from facepin.session.mirroring import linked_weights
 from facepin.session.session import Session
 
@@ -348,7 +351,12 @@ def _hand(
     pixel_ratio: float,
     scale: float,
 ) -> Command | None:
-    """Draw what concerns the pins over the picture."""
+    """Draw what concerns the hand over the picture: pins, and the handle of the eyes."""
+    if desk.view.gaze.shown and (gaze := find_gaze(session.rig)) is not None:
+        held = isinstance(desk.tool.gesture, GazeHold)
+        for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
+            state = ("held" if held else "hovered" if desk.view.gaze.hovered else "") * (at == session.active)
+            draw_gaze(gaze, session.panes[at].pose.weights, camera, place, pixel_ratio, scale, state=state)
     draw_gesture(desk.tool.gesture, pixel_ratio, scale)
     pins = session.pose.pins
     hovered = next((pin for pin in pins if pin.vertex == desk.tool.hovered and not pin.hidden), None)

@@ -19,16 +19,20 @@ from facepin.core.events import (
     PointerReleased,
     Scrolled,
 )
+from facepin.core.gaze import Gaze, find_gaze
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
 from facepin.panels.commands import PICTURES, Command, command_for
 from facepin.panels.requests import OpenPath, Request
 from facepin.panels.view import View
 from facepin.session.edit import Edit
+from facepin.session.gaze import GazeHold, is_on_handle, straightened
 from facepin.session.navigation import PRESETS, Navigator
 from facepin.session.nudge import goes_on
 from facepin.session.sight import DEAD_ZONE, Pixel, Sight, pin_at
 
+DOUBLE_CLICK = 0.35
+"""Seconds from the end of a click to the press that makes it a double click."""
 FUNCTION_KEYS = frozenset(f"f{number}" for number in range(1, 13))
 
 
@@ -40,6 +44,8 @@ class Router:
         self._pane = 0
         self._beside: Pixel | None = None
         """Where the mouse went down beside the face."""
+        self._gaze_clicked = -DOUBLE_CLICK
+        """When the handle of the eyes was clicked."""
 
     def take(
         self, events: Sequence[Event], desk: Desk, viewports: Sequence[Viewport], scale: float
@@ -131,7 +137,11 @@ class Router:
         scale: float,
     ) -> Edit | None:
         if desk.tool.holding:
-            return desk.tool.handle(event, self._sight(desk, stage, viewports, scale, self._pane))
+            gesture = desk.tool.gesture
+            edit = desk.tool.handle(event, self._sight(desk, stage, viewports, scale, self._pane))
+            if edit is None and isinstance(gesture, GazeHold) and not desk.tool.holding:
+                self._gaze_clicked = monotonic()
+            return edit
         if self.navigator.holding:
             desk.tool.look_away()
             self._navigate(event, desk, viewports)
@@ -139,15 +149,22 @@ class Router:
             return None
         if isinstance(event, PointerReleased) or imgui.get_io().want_capture_mouse:
             desk.tool.look_away()
+            desk.view.gaze.hovered = False
             return None
         under = [at for at, viewport in enumerate(viewports) if viewport.contains(event.x, event.y)]
         if not under or under[0] >= len(desk.cameras):
             return None
         self._pane = under[0]
         sight = self._sight(desk, stage, viewports, scale, self._pane)
+        gaze = find_gaze(stage.session.rig) if desk.view.gaze.shown else None
+        pixel = event.x, event.y
+        on_gaze = gaze is not None and is_on_handle(gaze, sight, pixel) and pin_at(sight, pixel) is None
+        desk.view.gaze.hovered = on_gaze
         if isinstance(event, PointerPressed):
             stage.session.settle()  # a slider may be on its way by wheel or key
             stage.session.active = self._pane
+            if gaze is not None and on_gaze and event.button == "left" and event.modifiers == NONE:
+                return self._take_gaze(gaze, pixel, desk, stage, sight)
             if event.button == "right" and not event.modifiers.alt:
                 vertex = pin_at(sight, (event.x, event.y))
                 if vertex is not None:
@@ -162,6 +179,14 @@ class Router:
             self._navigate(event, desk, viewports)
             self._click_beside(event, desk, scale)
         return edit
+
+    def _take_gaze(self, gaze: Gaze, pixel: Pixel, desk: Desk, stage: Stage, sight: Sight) -> Edit | None:
+        """Take hold of the handle of the eyes; a double click lets them look ahead."""
+        control = stage.session.control
+        if monotonic() - self._gaze_clicked < DOUBLE_CLICK:
+            return straightened(gaze, sight.pose.weights, control)
+        desk.tool.begin(GazeHold(gaze, control, sight, pixel, desk.tool.selected))
+        return None
 
     def _click_beside(self, event: Event, desk: Desk, scale: float) -> None:
         """Let go of the selection after a click beside the face: one that did not turn the camera."""

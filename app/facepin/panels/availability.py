@@ -1,5 +1,6 @@
 """What a command is called now, whether it can do anything and if not, why; and whether it did already."""
 
+from facepin.core.gaze import find_gaze
 from facepin.panels.commands import Command
 from facepin.panels.view import View
 from facepin.session.session import Session
@@ -54,6 +55,8 @@ def why_not(command: Command, session: Session | None) -> str:
             return "no pin is hidden"
         case Command.SAVE_LANDMARKS if not any(pin.name for pin in session.pose.pins):
             return "no pin has a name"
+        case Command.GAZE if find_gaze(session.rig) is None:
+            return "this face has no shapes that turn its eyes"
         case Command.FORGET_REFERENCE if session.work.reference is None:
             return "no reference is set"
     return ""
@@ -66,6 +69,8 @@ def is_on(command: Command, view: View, active: int) -> bool:
             return view.symmetric
         case Command.WIREFRAME:
             return view.panes[active].wireframe
+        case Command.GAZE:
+            return view.gaze.shown
         case Command.SKETCH_PINS:
             return view.pins.sketching
         case Command.CHART:

@@ -198,6 +198,12 @@ class Command(Enum):
         "View",
         "Lets the neutral or the reference pose shine through.",
     )
+    GAZE = (
+        "Gaze handle",
+        ("E",),
+        "View",
+        "Shows an eye before the face: drag it, both eyes look there; a double click lets them look ahead.",
+    )
     RESET_LAYOUT = "Reset the panel layout", (), "View", "Puts all panels back to where they stood first."
     REFERENCE_FROM_POSE = (
         "Take this pose as the reference",

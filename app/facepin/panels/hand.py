@@ -42,7 +42,7 @@ def draw_gesture(gesture: Gesture | None, pixel_ratio: float, scale: float) -> N
             )
             low = imgui.ImVec2(min(first.x, last.x), min(first.y, last.y))
             high = imgui.ImVec2(max(first.x, last.x), max(first.y, last.y))
-            _clip(draw, gesture.sight.viewport, pixel_ratio)
+            clip(draw, gesture.sight.viewport, pixel_ratio)
             draw.add_rect_filled(low, high, packed(PICTURE.accent, 0.10))
             draw.add_rect(low, high, packed(PICTURE.accent, 0.9), 0.0, scale)
             draw.pop_clip_rect()
@@ -116,7 +116,7 @@ def _label(text: str, x: float, y: float, viewport: Viewport, pixel_ratio: float
     size = imgui.calc_text_size(text)
     corner = imgui.ImVec2(x + 14 * scale, y - size.y / 2)
     draw = imgui.get_background_draw_list()
-    _clip(draw, viewport, pixel_ratio)
+    clip(draw, viewport, pixel_ratio)
     draw.add_rect_filled(
         imgui.ImVec2(corner.x - 1.5 * pad, corner.y - 0.6 * pad),
         imgui.ImVec2(corner.x + size.x + 1.5 * pad, corner.y + size.y + 0.6 * pad),
@@ -222,7 +222,8 @@ def _stretches(stroke: Stroke) -> Sequence[Sequence[tuple[float, float]]]:
     return [stretch for stretch in stretches if len(stretch) > 1]
 
 
-def _clip(draw: imgui.ImDrawList, viewport: Viewport, pixel_ratio: float) -> None:
+def clip(draw: imgui.ImDrawList, viewport: Viewport, pixel_ratio: float) -> None:
+    """Draw nothing beside a pane until `pop_clip_rect`."""
     left, top = viewport.x / pixel_ratio, viewport.y / pixel_ratio
     right, bottom = left + viewport.width / pixel_ratio, top + viewport.height / pixel_ratio
     draw.push_clip_rect(imgui.ImVec2(left, top), imgui.ImVec2(right, bottom))

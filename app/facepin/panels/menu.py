@@ -103,6 +103,7 @@ def menu_bar(
             overlay_items(
                 view.panes[session.active], view.habit, has_reference=session.work.reference is not None
             )
+            asked = _items(view, session, Command.GAZE) or asked
             imgui.separator()
         asked = _choices(view, "quality") or asked
         imgui.end_menu()

@@ -98,12 +98,22 @@ class PaletteView:
 
 
 @dataclass
+class GazeView:
+    """The handle of the eyes; where it is, the weights say."""
+
+    shown: bool = True
+    hovered: bool = False
+    """The mouse is on it."""
+
+
+@dataclass
 class View:
     """Toggles that panels change in place."""
 
     weights: WeightsView = field(default_factory=WeightsView)
     pins: PinsView = field(default_factory=PinsView)
     library: LibraryView = field(default_factory=LibraryView)
+    gaze: GazeView = field(default_factory=GazeView)
     library_opens: bool = False
     """The library panel was asked for just now."""
     filmstrip: bool = False

@@ -144,6 +144,10 @@ class DragTool:
             self._preferred = sight.places.region(aim.vertices[1])
             self.hovered, self.aim = self._under(self._pointed, sight)
 
+    def begin(self, gesture: Gesture) -> None:
+        """Go on with a gesture that began on something else than the face or a pin."""
+        self._before, self.gesture = self.selected, gesture
+
     def settle(self, now: float) -> Edit | None:
         """Return what keys have moved as one undo step, once they rest; `now` is a clock in seconds."""
         return self.finish() if self._nudge is not None and self._nudge.rests(now) else None

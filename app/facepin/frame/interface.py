@@ -31,7 +31,7 @@ from facepin.panels.palette import palette
 from facepin.panels.pane_title import pane_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import list_height, pins_panel, together
-from facepin.panels.recovery import WorkRow, lost_card, recovery_card
+from facepin.panels.recovery import WorkRow, lost_card, recovery_strip
 from facepin.panels.requests import CancelJob, CancelLoading, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import progress_card, status_line
@@ -44,7 +44,7 @@ from facepin.session.session import Session
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> list[Request]:
-    """Draw menu bar and status line, and what floats over everything.
+    """Draw menu bar, unsaved work and status line, and what floats over everything.
 
     Parameters
     ----------
@@ -58,13 +58,15 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
-    left = bool(desk.keeper.left)
+    left = desk.keeper.offered
     spacing = imgui.get_style().item_spacing
     imgui.push_style_var(
         imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, 2 * spacing.y)
     )  # easier to hit
-    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=left)]
+    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=bool(left))]
     imgui.pop_style_var()
+    if left and view.recovery.shown:
+        asked.append(recovery_strip([_work_row(leftover) for leftover in left], view.recovery, view.theme))
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
@@ -212,7 +214,7 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
 
 
 def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
-    """Draw what floats at the top of the picture, face or no face: history, unsaved work, a missing rig."""
+    """Draw what floats at the top of the picture, face or no face: history, a missing rig."""
     place = (viewport.x / pixel_ratio, viewport.y / pixel_ratio)
     width = viewport.width / pixel_ratio
     session, view = desk.session, desk.view
@@ -223,9 +225,6 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
         asked.append(wanted)
     if desk.opener.lost is not None:
         asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
-    elif desk.keeper.left and view.recovery.shown:
-        rows = [_work_row(leftover) for leftover in desk.keeper.left]
-        asked.append(recovery_card(rows, view.recovery, *place, width, view.theme))
     return [request for request in asked if request is not None]
 
 
@@ -235,7 +234,7 @@ def _work_row(leftover: Leftover) -> WorkRow:
     pins, panes = len(scene.pins), len(scene.panes)
     shapes = active(np.array([*scene.panes[scene.active].weights.values()]))
     about = [f"{leftover.time:%d %b %H:%M}"]
-    about += [f"{shapes} active", f"{pins} pin{'' if pins == 1 else 's'}"]
+    about += [f"{shapes} active"] * (shapes > 0) + [f"{pins} pin{'' if pins == 1 else 's'}"] * (pins > 0)
     about += [f"{panes} panes"] * (panes > 1)
     return WorkRow(leftover.draft.path, name, "  ".join(about))
 

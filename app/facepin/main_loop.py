@@ -202,7 +202,8 @@ def _loop(
         reset_layout = False
         stage = desk.stage
         if stage is not None:
-            viewports = layout.split(viewport, len(stage.session.panes), PANE_GAP * window.scale)
+            stage.with_reference = view.reference_shown
+            viewports = layout.split(viewport, len(stage.panes), PANE_GAP * window.scale)
             desk.viewport, desk.pixel_scale = viewports[0], window.scale
         asked += interface.panels(desk, scale)
         asked += interface.cards(desk, viewport, window.pixel_ratio, scale)

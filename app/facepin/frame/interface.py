@@ -28,7 +28,7 @@ from facepin.panels.legend import heat_legend
 from facepin.panels.library import Shown, library_panel
 from facepin.panels.menu import menu_bar
 from facepin.panels.palette import palette
-from facepin.panels.pane_title import pane_title
+from facepin.panels.pane_title import pane_title, reference_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import list_height, pins_panel, together
 from facepin.panels.recovery import WorkRow, lost_card, recovery_strip
@@ -147,6 +147,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             theme,
             lambda: session.mirror,
             in_gesture=session.in_gesture,
+            reference=session.work.reference if desk.view.reference_shown else None,
         )
     imgui.end()
     is_first = not layout.is_known(layout.LIBRARY)
@@ -263,10 +264,17 @@ def over_picture(
                 colour=colours[at],
                 active=at == session.active,
                 has_reference=session.work.reference is not None,
+                reference_shown=desk.view.reference_shown,
             )
-    for view, place in zip(desk.view.panes, viewports, strict=False):
-        if view.shading == "heat":
-            heat_legend(session.rig.height, place, pixel_ratio, scale)
+    looks = desk.view.panes
+    if stage.shows_reference:
+        shapes = active(stage.panes[-1].pose.weights)
+        place, look = viewports[-1], desk.view.reference
+        asked += reference_title(shapes, look, place, pixel_ratio, scale, desk.view.habit)
+        looks = [*looks, look]
+    hot = [at for look, at in zip(looks, viewports, strict=False) if look.shading == "heat"]
+    if hot:  # one scale for all
+        heat_legend(session.rig.height, hot[-1], pixel_ratio, scale)
     _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)

@@ -54,7 +54,7 @@ def why_not(command: Command, session: Session | None) -> str:
             return "no pin is hidden"
         case Command.SAVE_LANDMARKS if not any(pin.name for pin in session.pose.pins):
             return "no pin has a name"
-        case Command.FORGET_REFERENCE if session.work.reference is None:
+        case Command.SHOW_REFERENCE | Command.FORGET_REFERENCE if session.work.reference is None:
             return "no reference is set"
     return ""
 
@@ -68,6 +68,8 @@ def is_on(command: Command, view: View, active: int) -> bool:
             return view.panes[active].wireframe
         case Command.SKETCH_PINS:
             return view.pins.sketching
+        case Command.SHOW_REFERENCE:
+            return view.reference_shown
         case Command.CHART:
             return view.chart
         case Command.HISTORY:

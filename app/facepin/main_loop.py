@@ -138,7 +138,7 @@ def _loop(
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
     router = Router()
-    view.recovery.shown = bool(desk.keeper.left)
+    view.recovery.shown = bool(desk.keeper.offered)
     for problem in (*desk.keeper.remarks, layout_file.complaint, complaint):
         if problem:
             desk.say(problem, error=True)
@@ -203,7 +203,8 @@ def _loop(
         reset_layout = False
         stage = desk.stage
         if stage is not None:
-            viewports = layout.split(viewport, len(stage.session.panes), PANE_GAP * window.scale)
+            stage.with_reference = view.reference_shown
+            viewports = layout.split(viewport, len(stage.panes), PANE_GAP * window.scale)
             desk.viewport, desk.pixel_scale = viewports[0], window.scale
         asked += interface.panels(desk, scale)
         asked += interface.cards(desk, viewport, window.pixel_ratio, scale)

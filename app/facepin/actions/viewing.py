@@ -42,8 +42,13 @@ def act(request: Request, desk: Desk) -> bool:
             desk.look(desk.camera.orbited(yaw, pitch))
         case Command.SHADING:
             shown.next_mode()
-        case Command.HEAT:
-            shown.toggle_heat()
+        case Command.HEAT:  # of all panes, so that they can be compared
+            on = shown.shading == "heat"
+            for each in (*desk.view.panes, desk.view.reference):
+                if (each.shading == "heat") == on:
+                    each.toggle_heat()
+        case Command.SHOW_REFERENCE if stage.session.work.reference is not None:
+            desk.view.reference_shown = not desk.view.reference_shown
         case ShadeAs(mode):
             shown.mode = mode
         case Command.WIREFRAME:

@@ -44,6 +44,11 @@ class Keeper:
             self.left, self.remarks = leftovers(folder)
 
     @property
+    def offered(self) -> list[Leftover]:
+        """What of `left` is worth taking up; a face at rest is only kept."""
+        return [leftover for leftover in self.left if leftover.scene.is_touched]
+
+    @property
     def complaint(self) -> str:
         """Why unsaved work is in memory only at the moment; empty when it is not."""
         return self._saver.complaint

@@ -1,7 +1,7 @@
 """The open rig as it is shown: for each pane its positions, normals and mesh on the graphics card."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from threading import Thread
 from time import perf_counter
@@ -32,12 +32,12 @@ from facepin.panels.view import Ghost, PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
 from facepin.session.drag import DragTool
 from facepin.session.heat import HeatGauge
-from facepin.session.session import Session, Work
+from facepin.session.session import Pane, Session, Work
 
 
 @dataclass(eq=False)
 class _Shown:
-    """What one pane shows."""
+    """What one pane shows; `control` is None for the reference, of which nothing is muted."""
 
     deformer: Deformer
     normals: NormalField
@@ -66,6 +66,8 @@ class Stage:
         self.session = session
         self.scale = 1.0
         """Pixels per pixel of a 1x screen, as last drawn."""
+        self.with_reference = False
+        """Whether the reference, if there is one, has a pane of its own after the others."""
         self.seconds = 0.0
         """Time of the last deformation with normals and upload, all panes."""
         self._scene = Scene(ctx, session.rig)
@@ -94,6 +96,24 @@ class Stage:
         return find_places(self.session.rig)
 
     @property
+    def panes(self) -> tuple[Pane, ...]:
+        """What is shown side by side: the panes of the session, and maybe the reference.
+
+        The reference has no pins, and moves from where the last drag of the active pane began.
+        """
+        session = self.session
+        if not self.shows_reference:
+            return session.panes
+        reference = session.work.reference
+        assert reference is not None, "it is shown"
+        return (*session.panes, replace(session.pane, pose=Pose(reference), solved=None))
+
+    @property
+    def shows_reference(self) -> bool:
+        """Whether the last of `panes` is the reference."""
+        return self.with_reference and self.session.work.reference is not None
+
+    @property
     def refined(self) -> bool:
         """Whether `refine` has nothing left to do."""
         return self._scene.refined
@@ -105,18 +125,18 @@ class Stage:
     def update(self) -> bool:
         """Deform what has new weights and send it to the graphics card; return whether anything had."""
         began = perf_counter()
-        panes, control = self.session.panes, self.session.control
+        panes, control, own = self.panes, self.session.control, len(self.session.panes)
         for _ in range(len(self._shown), len(panes)):
             first = self._shown[0]
             mesh, gauge = PaneMesh(self._scene), HeatGauge(self.session.rig)
             self._shown.append(_Shown(first.deformer.twin(), first.normals.twin(), mesh, gauge))
         changed = False
-        for shown, pane in zip(self._shown, panes, strict=False):
-            weights = pane.pose.weights
-            if weights is shown.weights and control is shown.control:
+        for at, (shown, pane) in enumerate(zip(self._shown, panes, strict=False)):
+            weights, heard = pane.pose.weights, control if at < own else None
+            if weights is shown.weights and heard is shown.control:
                 continue
-            shown.weights, shown.control = weights, control
-            positions = shown.deformer.deform(control.heard(weights))
+            shown.weights, shown.control = weights, heard
+            positions = shown.deformer.deform(weights if heard is None else heard.heard(weights))
             if positions is not shown.positions:
                 shown.positions = positions
                 shown.mesh.upload(positions, shown.normals.normals(positions))
@@ -143,7 +163,7 @@ class Stage:
         work, shown = self.session.work, self._shown[pane]
         if shown.appraised is None or shown.appraised[0] is not work:
             found = self._appraiser.appraise(
-                work.panes[pane], work.control, self.positions(pane), work.reference
+                self.panes[pane], work.control, self.positions(pane), work.reference
             )
             shown.appraised = work, found
         return shown.appraised[1]
@@ -200,7 +220,7 @@ class Stage:
         if view.reach:
             heat = shown.gauge.reach(work.panes[pane])
         elif view.shading == "heat":
-            heat = shown.gauge.heat(work.panes[pane], work.control, self.positions(pane))
+            heat = shown.gauge.heat(self.panes[pane], work.control, self.positions(pane))
         tint = None if view.shape is None else shown.gauge.shape(view.shape)
         return Overlays(heat, view.wireframe, self._ghost_of(view), view.shading, tint)
 
@@ -327,7 +347,7 @@ class Stage:
         self, canvas: Canvas, sights: Sequence[tuple[Viewport, Camera]], tool: DragTool, scale: float
     ) -> None:
         """Draw the pins of every pane over their faces; `tool` holds, hovers and selects some."""
-        for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=True)):
+        for at, (pane, (viewport, camera)) in enumerate(zip(self.session.panes, sights, strict=False)):
             markers = _markers(pane.pose, self.positions(at), tool)
             self._markers.draw(canvas, viewport, camera, markers, scale=scale)
 

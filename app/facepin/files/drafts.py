@@ -13,7 +13,7 @@ from facepin.files.reading import read_bytes
 from facepin.files.scene_file import SUFFIX, NewerVersion, Scene, parse_scene
 
 MOST_KEPT = 20
-"""Drafts of former windows that are kept; the oldest go first."""
+"""Drafts of former windows that are kept; faces at rest go first, then the oldest."""
 
 
 class Draft:
@@ -91,7 +91,7 @@ def leftovers(folder: Path) -> tuple[list[Leftover], list[str]]:
     Returns
     -------
     list of Leftover
-        Newest first.  Drafts of windows that live, and of newer versions of the program, are left alone.
+        Newest first, faces at rest after all others.  Drafts of windows that live, and of newer versions of the program, are left alone.
     list of str
         One line for each draft that can't be read; it is set aside.
     """
@@ -114,7 +114,7 @@ def leftovers(folder: Path) -> tuple[list[Leftover], list[str]]:
                 if draft.path.exists():
                     remarks.append(f"unsaved work can't be read: {error}; {set_aside(draft.path)}")
                 draft.release()
-    found.sort(key=lambda leftover: leftover.time, reverse=True)
+    found.sort(key=lambda leftover: (leftover.scene.is_touched, leftover.time), reverse=True)
     for old in found[MOST_KEPT:]:
         old.draft.remove()
         old.draft.release()

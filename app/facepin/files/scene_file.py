@@ -105,6 +105,16 @@ class Scene:
     sections: Mapping[str, Any] = field(default_factory=dict)
     """What else the file holds, for other versions of the program."""
 
+    @property
+    def is_touched(self) -> bool:
+        """Whether there is more in it than a face at rest: a weight, a pin, a restraint, a pose to compare with.
+
+        Of what is in a scene file, a face at rest is a change too.
+        """
+        posed = any(weight for pane in self.panes for weight in pane.weights.values())
+        more = self.pins or self.reference or self.twins is not None or self.of is not None
+        return bool(posed or more or self.control != SceneControl())
+
 
 def read_scene(path: Path) -> Scene:
     """Read a scene file.

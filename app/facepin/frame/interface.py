@@ -39,10 +39,10 @@ from facepin.panels.legend import heat_legend
 from facepin.panels.library import Shown, library_panel
 from facepin.panels.menu import menu_bar
 from facepin.panels.palette import palette
-from facepin.panels.pane_title import pane_title
+from facepin.panels.pane_title import pane_title, reference_title
 from facepin.panels.pin_menu import pin_menu
 from facepin.panels.pins import list_height, pins_panel, together
-from facepin.panels.recovery import WorkRow, lost_card, recovery_card
+from facepin.panels.recovery import WorkRow, lost_card, recovery_strip
 from facepin.panels.requests import CancelJob, CancelLoading, Request
 from facepin.panels.solver import solver_panel
 from facepin.panels.status import progress_card, status_line
@@ -57,7 +57,7 @@ from facepin.session.session import Session
 
 
 def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> list[Request]:
-    """Draw menu bar and status line, and what floats over everything.
+    """Draw menu bar, unsaved work and status line, and what floats over everything.
 
     Parameters
     ----------
@@ -71,13 +71,15 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
-    left = bool(desk.keeper.left)
+    left = desk.keeper.offered
     spacing = imgui.get_style().item_spacing
     imgui.push_style_var(
         imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, 2 * spacing.y)
     )  # easier to hit
-    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=left)]
+    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=bool(left))]
     imgui.pop_style_var()
+    if left and view.recovery.shown:
+        asked.append(recovery_strip([_work_row(leftover) for leftover in left], view.recovery, view.theme))
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
@@ -159,6 +161,7 @@ def panels(desk: Desk, scale: float) -> list[Request]:
             theme,
             lambda: session.mirror,
             in_gesture=session.in_gesture,
+            reference=session.work.reference if desk.view.reference_shown else None,
         )
     imgui.end()
     is_first = not layout.is_known(layout.LIBRARY)
@@ -226,7 +229,7 @@ def _library(desk: Desk, scale: float) -> tuple[Edit | None, list[Request]]:
 
 
 def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
-    """Draw what floats at the top of the picture, face or no face: history, unsaved work, a missing rig."""
+    """Draw what floats at the top of the picture, face or no face: history, a missing rig."""
     place = (viewport.x / pixel_ratio, viewport.y / pixel_ratio)
     width = viewport.width / pixel_ratio
     session, view = desk.session, desk.view
@@ -239,9 +242,6 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
         asked.append(_tidy(desk, view.tidy, place, scale))
     if desk.opener.lost is not None:
         asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
-    elif desk.keeper.left and view.recovery.shown:
-        rows = [_work_row(leftover) for leftover in desk.keeper.left]
-        asked.append(recovery_card(rows, view.recovery, *place, width, view.theme))
     return [request for request in asked if request is not None]
 
 
@@ -266,7 +266,7 @@ def _work_row(leftover: Leftover) -> WorkRow:
     pins, panes = len(scene.pins), len(scene.panes)
     shapes = active(np.array([*scene.panes[scene.active].weights.values()]))
     about = [f"{leftover.time:%d %b %H:%M}"]
-    about += [f"{shapes} active", f"{pins} pin{'' if pins == 1 else 's'}"]
+    about += [f"{shapes} active"] * (shapes > 0) + [f"{pins} pin{'' if pins == 1 else 's'}"] * (pins > 0)
     about += [f"{panes} panes"] * (panes > 1)
     return WorkRow(leftover.draft.path, name, "  ".join(about))
 
@@ -295,10 +295,17 @@ def over_picture(
                 colour=colours[at],
                 active=at == session.active,
                 has_reference=session.work.reference is not None,
+                reference_shown=desk.view.reference_shown,
             )
-    for view, place in zip(desk.view.panes, viewports, strict=False):
-        if view.shading == "heat":
-            heat_legend(session.rig.height, place, pixel_ratio, scale)
+    looks = desk.view.panes
+    if stage.shows_reference:
+        shapes = active(stage.panes[-1].pose.weights)
+        place, look = viewports[-1], desk.view.reference
+        asked += reference_title(shapes, look, place, pixel_ratio, scale, desk.view.habit)
+        looks = [*looks, look]
+    hot = [at for look, at in zip(looks, viewports, strict=False) if look.shading == "heat"]
+    if hot:  # one scale for all
+        heat_legend(session.rig.height, hot[-1], pixel_ratio, scale)
     _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)

@@ -2,7 +2,7 @@
 
 import moderngl
 
-from facepin.core.camera import Viewport
+from facepin.core.camera import Camera, Viewport
 from facepin.core.quality import LEVELS, Level, level
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
@@ -60,12 +60,12 @@ class Painting:
         if self._drawn == (faces, hands):
             return
         canvas = self._canvas(desk, quality.samples, size)
-        sights = list(zip(viewports, desk.cameras, strict=True))
+        sights = list(zip(viewports, cameras_of(desk, stage), strict=True))
         if self._rest is not None and self._resting == faces:
             self._rest.copy_to(canvas)
             stage.rest()
         else:
-            panes, scale = desk.view.panes, desk.pixel_scale
+            panes, scale = [*desk.view.panes, desk.view.reference], desk.pixel_scale
             stage.draw(canvas, sights, panes, scale, fine=quality.fine, beside=beside)
             if self._software and quality.fine and not moving:
                 self._keep(canvas, faces)
@@ -112,6 +112,11 @@ class Painting:
         self._canvases.release()
 
 
+def cameras_of(desk: Desk, stage: Stage) -> list[Camera]:
+    """Return a camera for each pane of the stage: the reference is seen as the active pane is."""
+    return [*desk.cameras, *[desk.camera] * stage.shows_reference]
+
+
 def _is_software(ctx: moderngl.Context) -> bool:
     """Say whether OpenGL runs on the processor: many samples then wait until the picture rests."""
     return any(word in ctx.info["GL_RENDERER"].lower() for word in SOFTWARE)
@@ -121,7 +126,7 @@ def _key(
     desk: Desk, stage: Stage, viewports: tuple[Viewport, ...], quality: Level, size: tuple[int, int]
 ) -> tuple[object, ...]:
     """Return everything that faces depend on; the same key means the same picture but for the pins."""
-    overlays = tuple(pane.key for pane in desk.view.panes)
+    overlays = tuple(pane.key for pane in (*desk.view.panes, desk.view.reference))
     work = stage.session.work
-    seen = (quality, size, viewports, tuple(desk.cameras), desk.view.theme)
+    seen = (quality, size, viewports, tuple(cameras_of(desk, stage)), desk.view.theme)
     return (stage, stage.refined, work, desk.pixel_scale, *seen, overlays)

@@ -152,9 +152,12 @@ class Router:
             desk.view.gaze.hovered = False
             return None
         under = [at for at, viewport in enumerate(viewports) if viewport.contains(event.x, event.y)]
-        if not under or under[0] >= len(desk.cameras):
+        if not under or under[0] >= len(stage.panes):
             return None
         self._pane = under[0]
+        if self._pane >= len(stage.session.panes):  # the reference is looked at, and nothing else
+            self._navigate(event, desk, viewports)
+            return None
         sight = self._sight(desk, stage, viewports, scale, self._pane)
         gaze = find_gaze(stage.session.rig) if desk.view.gaze.shown else None
         pixel = event.x, event.y
@@ -199,11 +202,12 @@ class Router:
                 self._beside = None
 
     def _navigate(self, event: Event, desk: Desk, viewports: Sequence[Viewport]) -> None:
-        pane = min(self._pane, len(viewports) - 1, len(desk.cameras) - 1)  # it may have been closed meanwhile
-        before = desk.cameras[pane]
+        pane = min(self._pane, len(viewports) - 1)  # it may have been closed meanwhile
+        own = pane if pane < len(desk.cameras) else None
+        before = desk.camera if own is None else desk.cameras[own]
         camera = self.navigator.handle(event, before, viewports[pane], PRESETS[desk.view.habit])
         if camera is not before:
-            desk.look(camera, pane)
+            desk.look(camera, own)
 
     def _sight(
         self, desk: Desk, stage: Stage, viewports: Sequence[Viewport], scale: float, pane: int

@@ -57,7 +57,7 @@ def why_not(command: Command, session: Session | None) -> str:
             return "no pin has a name"
         case Command.GAZE if find_gaze(session.rig) is None:
             return "this face has no shapes that turn its eyes"
-        case Command.FORGET_REFERENCE if session.work.reference is None:
+        case Command.SHOW_REFERENCE | Command.FORGET_REFERENCE if session.work.reference is None:
             return "no reference is set"
     return ""
 
@@ -73,6 +73,8 @@ def is_on(command: Command, view: View, active: int) -> bool:
             return view.gaze.shown
         case Command.SKETCH_PINS:
             return view.pins.sketching
+        case Command.SHOW_REFERENCE:
+            return view.reference_shown
         case Command.CHART:
             return view.chart
         case Command.HISTORY:

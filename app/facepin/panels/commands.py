@@ -224,6 +224,12 @@ class Command(Enum):
         "Weights of all panes as bars, and their errors against the reference.",
     )
     SAVE_CHART = "Save the chart", (), "Compare", "As PNG, SVG and CSV, beside the pictures."
+    SHOW_REFERENCE = (
+        "Show the reference",
+        (),
+        "Compare",
+        "In a pane of its own, with its weights as bars beside the others'.",
+    )
     FORGET_REFERENCE = "Forget the reference", (), "Compare", "Nothing is measured against it any more."
     PALETTE = (
         "Find an action…",

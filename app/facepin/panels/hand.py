@@ -70,7 +70,7 @@ def aim_ring(
     if x != x:
         return
     draw = imgui.get_background_draw_list()
-    _clip(draw, viewport, pixel_ratio)
+    clip(draw, viewport, pixel_ratio)
     for colour, width in ((packed((0, 0, 0, 0.55)), 3.5), (packed(PICTURE.text), 1.5)):
         draw.add_circle(imgui.ImVec2(x, y), RING * scale, colour, 0, width * scale)
     draw.pop_clip_rect()

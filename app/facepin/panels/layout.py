@@ -1,5 +1,7 @@
 """Where the panels are: docked beside the viewport, movable, and how they stand at first."""
 
+from math import ceil
+
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
@@ -25,6 +27,8 @@ SIGN = (
     | imgui.WindowFlags_.no_bring_to_front_on_focus
 )
 """What a small window over the picture is like: it stays where it is put, behind everything else."""
+MOST_EVEN = 4
+"""Panes that are put into full rows only."""
 FACE_ASPECT = 0.75
 """Width over height of a pane that a face fills well."""
 
@@ -144,6 +148,8 @@ def beside(name: str, other: str) -> None:
 def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
     """Cut a viewport into `count` equal panes, in rows and columns that leave a face as large as possible.
 
+    Up to `MOST_EVEN` fill it; of more, the last row may have fewer.
+
     Parameters
     ----------
     viewport : Viewport
@@ -154,10 +160,10 @@ def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
         Pixels between panes.
     """
     columns = max(
-        (columns for columns in range(1, count + 1) if count % columns == 0),
-        key=lambda columns: min(viewport.width / columns / FACE_ASPECT, viewport.height * columns / count),
+        (columns for columns in range(1, count + 1) if count % columns == 0 or count > MOST_EVEN),
+        key=lambda columns: _face(viewport, columns, ceil(count / columns)),
     )
-    rows = count // columns
+    rows = ceil(count / columns)
     width = (viewport.width - gap * (columns - 1)) / columns
     height = (viewport.height - gap * (rows - 1)) / rows
     return tuple(
@@ -169,6 +175,11 @@ def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
         )
         for at in range(count)
     )
+
+
+def _face(viewport: Viewport, columns: int, rows: int) -> float:
+    """Return how large a face is in a pane of so many columns and rows."""
+    return min(viewport.width / columns / FACE_ASPECT, viewport.height / rows)
 
 
 def _build(space: int, scale: float) -> None:

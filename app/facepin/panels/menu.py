@@ -145,7 +145,7 @@ def _compare(view: View, session: Session) -> Request | None:
             if imgui.menu_item_simple(f"of {shapes} shape{'s' if shapes > 1 else ''}"):
                 asked = RandomReference(shapes)
         imgui.end_menu()
-    asked = _items(view, session, Command.FORGET_REFERENCE) or asked
+    asked = _items(view, session, Command.SHOW_REFERENCE, Command.FORGET_REFERENCE) or asked
     imgui.separator()
     return _items(view, session, Command.CHART) or asked
 

@@ -1,4 +1,4 @@
-"""Cards over the picture: unsaved work of former windows, and a scene whose rig is missing."""
+"""What asks to be taken up: unsaved work of former windows, and a scene whose rig is missing."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,18 +6,19 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from facepin.panels import layout
 from facepin.panels.commands import Command
 from facepin.panels.requests import CancelLoading, DiscardWork, Request, RestoreWork
 from facepin.panels.theme import Theme
 from facepin.panels.tiles import shortened
 
-MOST_ROWS = 4
+MOST_ROWS = 3
 """Rows that are seen at once; more scroll."""
 
 
 @dataclass
 class RecoveryView:
-    """How the card of unsaved work is shown."""
+    """How the strip of unsaved work is shown."""
 
     shown: bool = False
     doomed: Path | None = None
@@ -26,7 +27,7 @@ class RecoveryView:
 
 @dataclass(frozen=True)
 class WorkRow:
-    """Unsaved work, as the card lists it."""
+    """Unsaved work, as the strip lists it."""
 
     draft: Path
     name: str
@@ -34,10 +35,8 @@ class WorkRow:
     """When, and how much."""
 
 
-def recovery_card(
-    rows: Sequence[WorkRow], view: RecoveryView, left: float, top: float, width: float, theme: Theme
-) -> Request | None:
-    """Draw what can be taken up again; return what the user wants, or None.
+def recovery_strip(rows: Sequence[WorkRow], view: RecoveryView, theme: Theme) -> Request | None:
+    """Draw below the menu bar what can be taken up again; return what the user wants, or None.
 
     Parameters
     ----------
@@ -45,54 +44,72 @@ def recovery_card(
         Newest first, one or more.
     view : RecoveryView
         Changed in place.
-    left, top, width : float
-        Where the picture is, in imgui units.
     theme : Theme
         Colours.
     """
-    em = imgui.get_font_size()
-    _card("##recovery", left, top, width, 44 * em)
+    style = imgui.get_style()
+    step = imgui.get_frame_height_with_spacing()
+    around = 0.8 * style.window_padding.y
+    height = min(len(rows), MOST_ROWS) * step - style.item_spacing.y
+    flags = (
+        imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_docking
+    )
+    layout.push_no_ground()
+    imgui.push_style_var(imgui.StyleVar_.window_padding, imgui.ImVec2(style.window_padding.x, around / 2))
+    shown = imgui.internal.begin_viewport_side_bar(
+        "##recovery", imgui.get_main_viewport(), imgui.Dir.up, height + around, flags
+    )
+    imgui.pop_style_var()
     asked: Request | None = None
-    row_height = imgui.get_frame_height() + imgui.get_style().item_spacing.y
-    padding = imgui.get_style().frame_padding.x
-    buttons = [imgui.calc_text_size(word).x + 2 * padding for word in ("Restore", "Really discard")]
-    gap = imgui.get_style().item_spacing.x
-    imgui.align_text_to_frame_padding()
-    imgui.text_colored(imgui.ImVec4(*theme.accent), "Unsaved work")
-    imgui.same_line()
-    imgui.text_disabled("Facepin was left before this was saved.")
-    imgui.same_line(imgui.get_window_width() - buttons[1] - imgui.get_style().window_padding.x)
-    if imgui.button("Later", imgui.ImVec2(buttons[1], 0)):
-        view.shown, view.doomed = False, None
-    imgui.set_item_tooltip(f"It stays where it is: File, {Command.UNSAVED_WORK.title}")
-    height = min(len(rows), MOST_ROWS) * row_height - imgui.get_style().item_spacing.y
-    imgui.begin_child("rows", imgui.ImVec2(0, height))
-    for row in rows:
-        imgui.push_id(str(row.draft))
+    if shown:
+        padding = 2 * style.frame_padding.x
+        words = ("Restore", "Really discard", "Later")
+        buttons = [imgui.calc_text_size(word).x + padding for word in words]
         imgui.align_text_to_frame_padding()
-        end = imgui.get_content_region_avail().x - sum(buttons) - 2 * gap
-        room = end - imgui.calc_text_size(row.about).x - 2 * gap
-        imgui.text(shortened(row.name, max(room, 6 * em)))
-        imgui.set_item_tooltip(f"{row.name}\n{row.about}")
-        imgui.same_line()
-        imgui.text_colored(
-            imgui.ImVec4(*theme.text_dim), shortened(row.about, end - imgui.get_cursor_pos_x())
+        imgui.text_colored(imgui.ImVec4(*theme.accent), "Unsaved work")
+        imgui.set_item_tooltip("Facepin was left before this was saved.")
+        imgui.same_line(0, 2 * style.item_spacing.x)
+        later = imgui.get_window_width() - buttons[2] - style.window_padding.x
+        imgui.begin_child(
+            "rows", imgui.ImVec2(later - imgui.get_cursor_pos_x() - style.item_spacing.x, height)
         )
-        imgui.same_line(end + gap)
-        if imgui.button("Restore", imgui.ImVec2(buttons[0], 0)):
-            asked = RestoreWork(row.draft)
-        imgui.same_line()
-        if view.doomed == row.draft:
-            imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
-            if imgui.button("Really discard", imgui.ImVec2(buttons[1], 0)):
-                asked = DiscardWork(row.draft)
-                view.doomed = None
-            imgui.pop_style_color()
-        elif imgui.button("Discard", imgui.ImVec2(buttons[1], 0)):
-            view.doomed = row.draft
-        imgui.pop_id()
-    imgui.end_child()
+        for row in rows:
+            asked = _row(row, view, buttons, theme) or asked
+        imgui.end_child()
+        imgui.same_line(later)
+        if imgui.button("Later", imgui.ImVec2(buttons[2], 0)):
+            view.shown, view.doomed = False, None
+        imgui.set_item_tooltip(f"It stays where it is: File, {Command.UNSAVED_WORK.title}")
     imgui.end()
+    layout.pop_no_ground()
+    return asked
+
+
+def _row(row: WorkRow, view: RecoveryView, buttons: Sequence[float], theme: Theme) -> Request | None:
+    """Draw one piece of work; `buttons` are the widths of the longest words on its two."""
+    asked: Request | None = None
+    gap, em = imgui.get_style().item_spacing.x, imgui.get_font_size()
+    imgui.push_id(str(row.draft))
+    imgui.align_text_to_frame_padding()
+    end = imgui.get_content_region_avail().x - buttons[0] - buttons[1] - 2 * gap
+    room = end - imgui.calc_text_size(row.about).x - 2 * gap
+    imgui.text(shortened(row.name, max(room, 6 * em)))
+    imgui.set_item_tooltip(f"{row.name}\n{row.about}")
+    imgui.same_line(0, 2 * gap)
+    imgui.text_colored(imgui.ImVec4(*theme.text_dim), shortened(row.about, end - imgui.get_cursor_pos_x()))
+    imgui.same_line(end + gap)
+    if imgui.button("Restore", imgui.ImVec2(buttons[0], 0)):
+        asked = RestoreWork(row.draft)
+    imgui.same_line()
+    if view.doomed == row.draft:
+        imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
+        if imgui.button("Really discard", imgui.ImVec2(buttons[1], 0)):
+            asked = DiscardWork(row.draft)
+            view.doomed = None
+        imgui.pop_style_color()
+    elif imgui.button("Discard", imgui.ImVec2(buttons[1], 0)):
+        view.doomed = row.draft
+    imgui.pop_id()
     return asked
 
 

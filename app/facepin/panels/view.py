@@ -133,6 +133,10 @@ class View:
     """It was asked for just now."""
     panes: list[PaneView] = field(default_factory=lambda: [PaneView()])
     """One per pane."""
+    reference_shown: bool = False
+    """Whether the reference has a pane of its own."""
+    reference: PaneView = field(default_factory=PaneView)
+    """How that one is shown."""
     chart: bool = False
     """Whether the chart window is open."""
     history: bool = False

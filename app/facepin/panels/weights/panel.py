@@ -32,6 +32,7 @@ def weights_panel(
     twins: Twins,
     *,
     in_gesture: bool,
+    reference: Floats | None = None,
 ) -> Wish:
     """Draw one slider per shape; return what the user changes in this frame, or None.
 
@@ -55,6 +56,8 @@ def weights_panel(
         Tells left from right.
     in_gesture : bool
         Whether a drag or a slider is being moved.
+    reference : (k,)
+        Weights to compare with: one more bar for each shape, which nobody moves.
     """
     weights = panes[active].pose.weights
     listing = view.listing(rig)
@@ -66,7 +69,7 @@ def weights_panel(
         imgui.text_disabled("No shape has that name." if view.search else "This rig has no shapes.")
     imgui.set_cursor_pos_x(imgui.get_cursor_pos().x - INSET * scale)  # names stand in line with the head
     if imgui.begin_child("rows"):
-        wish = _list(rig, control, panes, active, view, scale, theme, lines) or wish
+        wish = _list(rig, control, panes, active, view, scale, theme, lines, reference) or wish
     imgui.end_child()
     return _menu(rig, control, weights, view, twins) or wish
 
@@ -80,6 +83,7 @@ def _list(
     scale: float,
     theme: Theme,
     lines: Sequence[Line],
+    reference: Floats | None,
 ) -> Wish:
     """Draw the lines that are in sight, and let the hand act on them."""
     at = imgui.get_cursor_screen_pos()
@@ -90,7 +94,11 @@ def _list(
     view.columns = columns
     poses = [pane.pose.weights for pane in panes]
     keys = [pane.choice.kind.key for pane in panes]
-    colours = [theme.accent] if len(panes) == 1 else pane_colours(theme, keys)
+    colours = pane_colours(theme, keys)
+    if reference is not None:
+        poses, colours = [*poses, reference], [*colours, theme.text_dim]
+    if len(poses) == 1:
+        colours = [theme.accent]
     painter = Painter(
         imgui.get_window_draw_list(),
         inks(theme, colours),

@@ -29,6 +29,7 @@ from facepin.panels.hand import (
     hidden_pins,
     pin_label,
     sketch_hint,
+    soft_ring,
     symmetry_button,
 )
 from facepin.panels.history import history_window
@@ -48,6 +49,7 @@ from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.panels.vertex_card import vertex_card
 from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
+from facepin.session.hold import Hold
 from facepin.session.mirroring import linked_weights
 from facepin.session.session import Session
 
@@ -340,6 +342,9 @@ def _hand(
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
             where = stage.positions(at), camera, place
             aim_ring(desk.tool.aim, stage.places, *where, pixel_ratio, scale)
+    held = desk.tool.gesture
+    if isinstance(held, Hold) and held.moved and held.radius > 0:
+        soft_ring(held, stage.positions(session.active), pixel_ratio, scale)
     if desk.tool.line is not None:
         axis, pressed = desk.tool.line
         place = next((each for each in viewports if each.contains(*pressed)), viewport)

@@ -229,6 +229,30 @@ def test_nothing_of_a_line_is_left_after_a_drag_is_given_up(app: App) -> None:
     assert not app.session.pose.pins
 
 
+def test_with_symmetry_a_soft_drag_moves_both_sides_alike(app: App) -> None:
+    app.desk.view.steady = False
+    places, rig = app.desk.stage.places, app.session.rig
+    left, at = seen(app, "upper lip", "left")
+    right = int(app.session.mirror.vertices[left])
+    pins = tuple(Pin(v, tuple(rig.neutral[v].astype(float).tolist())) for v in (right, left))
+    app.desk.apply(Edit("Place pins", True, pins))
+    before = {pin.vertex: np.array(pin.goal) for pin in pins}
+    app.key("m")
+    app.press(*at)
+    app.move(at[0], at[1] + 20)
+    app.step(Scrolled(*at, 20.0))
+    moved = {pin.vertex: np.array(pin.goal) - before[pin.vertex] for pin in app.session.pose.pins}
+    alone = app.desk.tool.held
+    app.step(Scrolled(*at, -30.0))
+    app.release(at[0], at[1] + 20)
+    app.key("m")
+    app.desk.view.steady = True
+    assert places.sides[left] == -places.sides[right] == 1
+    assert alone == {left}
+    np.testing.assert_allclose(moved[right], moved[left] * (-1, 1, 1), atol=1e-9)
+    assert moved[left][1] < -0.01 * rig.height
+
+
 def test_the_wheel_in_a_drag_carries_near_pins_along(app: App) -> None:
     app.desk.view.steady = False
     places = app.desk.stage.places

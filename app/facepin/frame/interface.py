@@ -342,13 +342,13 @@ def _hand(
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
             where = stage.positions(at), camera, place
             aim_ring(desk.tool.aim, stage.places, *where, pixel_ratio, scale)
-    held = desk.tool.gesture
-    if isinstance(held, Hold) and held.moved and held.radius > 0:
-        soft_ring(held, stage.positions(session.active), pixel_ratio, scale)
     if desk.tool.line is not None:
         axis, pressed = desk.tool.line
         place = next((each for each in viewports if each.contains(*pressed)), viewport)
         axis_line(axis, pressed, place, pixel_ratio, scale)
+    held = desk.tool.gesture
+    if isinstance(held, Hold) and held.moved and held.radius > 0:
+        soft_ring(held, stage.positions(session.active), pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
     asked = symmetry_button(desk.view.symmetric, desk.view.habit, viewport, pixel_ratio, scale)

@@ -56,6 +56,9 @@ class Hold:
         """How far each other pin is from those in the hand along the skin, as a share of the face height."""
         height = self.sight.rig.height
         others = movable(self.pins, {pin.vertex for pin in self.pins} - self.vertices)
+        if self.sight.mirror is not None:  # the other side follows as the twin of this one
+            sides = self.sight.places.sides
+            others = frozenset(v for v in others if sides[v] * sides[self.pin.vertex] >= 0)
         away = geodesic_distances(self.sight.rig, sorted(self.vertices), WIDEST * height) / height
         return {vertex: float(away[vertex]) for vertex in others}
 

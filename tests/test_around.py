@@ -14,7 +14,10 @@ from facepin.core.events import (
     PointerMoved,
     PointerPressed,
     PointerReleased,
+    Scrolled,
 )
+from facepin.core.pose import Pin
+from facepin.session.edit import Edit
 
 BESIDE = (60.0, 120.0)
 
@@ -224,3 +227,65 @@ def test_nothing_of_a_line_is_left_after_a_drag_is_given_up(app: App) -> None:
     assert app.desk.tool.line is None
     app.release(x + 20, y + 30)
     assert not app.session.pose.pins
+
+
+def test_with_symmetry_a_soft_drag_moves_both_sides_alike(app: App) -> None:
+    app.desk.view.steady = False
+    places, rig = app.desk.stage.places, app.session.rig
+    left, at = seen(app, "upper lip", "left")
+    right = int(app.session.mirror.vertices[left])
+    pins = tuple(Pin(v, tuple(rig.neutral[v].astype(float).tolist())) for v in (right, left))
+    app.desk.apply(Edit("Place pins", True, pins))
+    before = {pin.vertex: np.array(pin.goal) for pin in pins}
+    app.key("m")
+    app.press(*at)
+    app.move(at[0], at[1] + 20)
+    app.step(Scrolled(*at, 20.0))
+    moved = {pin.vertex: np.array(pin.goal) - before[pin.vertex] for pin in app.session.pose.pins}
+    alone = app.desk.tool.held
+    app.step(Scrolled(*at, -30.0))
+    app.release(at[0], at[1] + 20)
+    app.key("m")
+    app.desk.view.steady = True
+    assert places.sides[left] == -places.sides[right] == 1
+    assert alone == {left}
+    np.testing.assert_allclose(moved[right], moved[left] * (-1, 1, 1), atol=1e-9)
+    assert moved[left][1] < -0.01 * rig.height
+
+
+def test_the_wheel_in_a_drag_carries_near_pins_along(app: App) -> None:
+    app.desk.view.steady = False
+    places = app.desk.stage.places
+    first, at = seen(app, "upper lip", "left")
+    skin = np.flatnonzero((places.regions == places.regions[first]) & (places.sides == 1))
+    away = np.linalg.norm(app.session.rig.neutral[skin] - app.session.rig.neutral[first], axis=1)
+    near = int(skin[np.argmin(np.abs(away - 0.03 * app.session.rig.height))])
+    far, _ = seen(app, "brow", "right")
+    pins = tuple(Pin(v, tuple(app.session.rig.neutral[v].astype(float).tolist())) for v in (first, near, far))
+    app.desk.apply(Edit("Place pins", True, pins))
+    before = {pin.vertex: np.array(pin.goal) for pin in app.session.pose.pins}
+    camera = app.desk.camera
+
+    def ways() -> list[float]:
+        goals = {pin.vertex: np.array(pin.goal) for pin in app.session.pose.pins}
+        return [float(np.linalg.norm(goals[v] - before[v])) for v in (first, near, far)]
+
+    app.press(*at)
+    app.move(at[0], at[1] + 20)
+    whole = ways()[0]
+    assert ways() == [whole, 0.0, 0.0]
+    app.step(Scrolled(*at, 4.0))
+    assert app.desk.camera == camera
+    moved = ways()
+    assert moved[0] == pytest.approx(whole)
+    assert 0.1 * whole < moved[1] < whole
+    assert moved[2] == 0.0
+    assert app.desk.tool.held == {first, near}
+    app.step(Scrolled(*at, 1.0))
+    assert moved[1] < ways()[1] < whole
+    app.step(Scrolled(*at, -9.0))
+    assert ways() == pytest.approx([whole, 0.0, 0.0])
+    app.release(at[0], at[1] + 20)
+    app.desk.view.steady = True
+    assert app.desk.tool.radius == 0
+    assert app.session.undo_label == "Drag pin"

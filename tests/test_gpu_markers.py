@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from facepin.core.camera import Viewport, frame_points
+from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.normals import NormalField
+from facepin.core.pose import Pin, Pose
 from facepin.files import open_rig
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame
-from facepin.gpu.markers import STYLES, MarkerLayer, Markers, MarkerState, marker_size
+from facepin.gpu.markers import STYLES, MarkerLayer, Markers, MarkerState, marker_size, pin_markers
 from facepin.gpu.pane import Overlays, draw_pane
 from facepin.gpu.scene import PaneMesh, Scene
 from facepin.resources import resource
@@ -185,3 +186,17 @@ def test_pins_behind_a_ghost_look_the_same_in_every_picture(gl: moderngl.Context
         item.release()
     for picture in pictures[1:]:
         np.testing.assert_array_equal(picture, pictures[0])
+
+
+def test_a_screen_pin_that_is_met_looks_met_from_every_side() -> None:
+    turned = Camera(radius=1.0).orbited(0.4, 0.2)
+    right, up, back = turned.axes
+    axes = tuple(right.tolist()), tuple(up.tolist())
+    vertex = np.array([[0.1, 0.2, 0.3]], np.float32)
+    goal = tuple((vertex[0] + 0.7 * back).tolist())
+    met = Pose(np.zeros(1), (Pin(0, goal, "screen", axes),))
+    np.testing.assert_allclose(pin_markers(met, vertex).goals, vertex, atol=1e-6)
+    off = Pose(np.zeros(1), (Pin(0, tuple(np.add(goal, 0.2 * right).tolist()), "screen", axes),))
+    np.testing.assert_allclose(pin_markers(off, vertex).goals, vertex + 0.2 * right, atol=1e-6)
+    held = Pose(np.zeros(1), (Pin(0, goal),))
+    np.testing.assert_allclose(pin_markers(held, vertex).goals[0], goal, atol=1e-6)

@@ -91,7 +91,8 @@ def leftovers(folder: Path) -> tuple[list[Leftover], list[str]]:
     Returns
     -------
     list of Leftover
-        Newest first, faces at rest after all others.  Drafts of windows that live, and of newer versions of the program, are left alone.
+        Newest first, faces at rest after all others.  Drafts of windows that live, and of newer versions of
+        the program, are left alone.
     list of str
         One line for each draft that can't be read; it is set aside.
     """

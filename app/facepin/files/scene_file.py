@@ -107,7 +107,7 @@ class Scene:
 
     @property
     def is_touched(self) -> bool:
-        """Whether there is more in it than a face at rest: a weight, a pin, a restraint, a pose to compare with.
+        """Whether there is more in it than a face at rest: a weight, a pin, a restraint, a reference.
 
         Of what is in a scene file, a face at rest is a change too.
         """

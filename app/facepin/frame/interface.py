@@ -31,6 +31,7 @@ from facepin.panels.hand import (
     hidden_pins,
     pin_label,
     sketch_hint,
+    soft_ring,
     symmetry_button,
 )
 from facepin.panels.history import history_window
@@ -52,6 +53,7 @@ from facepin.panels.vertex_card import vertex_card
 from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
 from facepin.session.gaze import GazeHold
+from facepin.session.hold import Hold
 from facepin.session.mirroring import linked_weights
 from facepin.session.session import Session
 
@@ -379,6 +381,9 @@ def _hand(
         axis, pressed = desk.tool.line
         place = next((each for each in viewports if each.contains(*pressed)), viewport)
         axis_line(axis, pressed, place, pixel_ratio, scale)
+    held = desk.tool.gesture
+    if isinstance(held, Hold) and held.moved and held.radius > 0:
+        soft_ring(held, stage.positions(session.active), pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
     asked = symmetry_button(desk.view.symmetric, desk.view.habit, viewport, pixel_ratio, scale)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Points
@@ -16,6 +17,7 @@ from facepin.session.aim import Aim
 from facepin.session.box import Box
 from facepin.session.course import Axis
 from facepin.session.gesture import Gesture
+from facepin.session.hold import Hold
 from facepin.session.navigation import Habit
 from facepin.session.sight import Pixel
 from facepin.session.stroke import Stroke
@@ -78,6 +80,24 @@ def aim_ring(
     if len(aim.vertices) > 1:
         text += f"   Tab: {places.region(aim.vertices[1])}"
     _label(text, x, y, viewport, pixel_ratio, scale)
+
+
+def soft_ring(hold: Hold, positions: Points, pixel_ratio: float, scale: float) -> None:
+    """Draw how far round the pin in the hand others are carried along."""
+    camera, viewport = hold.sight.camera, hold.sight.viewport
+    point = positions[hold.pin.vertex].astype(np.float64)
+    rim = point + hold.radius * hold.sight.rig.height * camera.axes[0]
+    (x, y, _), (edge, *_) = (camera.project(np.stack([point, rim]), viewport) / pixel_ratio).tolist()
+    if x != x or edge != edge:
+        return
+    draw = imgui.get_background_draw_list()
+    clip(draw, viewport, pixel_ratio)
+    for colour, width in ((packed((0, 0, 0, 0.35)), 3.0), (packed(PICTURE.accent, 0.9), 1.25)):
+        draw.add_circle(imgui.ImVec2(x, y), edge - x, colour, 0, width * scale)
+    draw.pop_clip_rect()
+    count = len(hold.along)
+    text = f"{hold.radius:.0%} of the face, {count} pin{'' if count == 1 else 's'} carried along"
+    _label(text, edge, y, viewport, pixel_ratio, scale)
 
 
 def axis_line(axis: Axis, pressed: Pixel, viewport: Viewport, pixel_ratio: float, scale: float) -> None:

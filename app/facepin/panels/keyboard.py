@@ -24,8 +24,8 @@ Line = tuple[tuple[str, ...], str]
 HAND: tuple[Line, ...] = (
     (("Click on the face",), "Place a pin"),
     (("Drag",), "Move a pin: the face follows"),
-    (("Hold Shift",), "While dragging: a fifth as fast"),
-    (("Hold X", "Hold Y"), "While dragging: along one axis"),
+    (("Hold Shift",), "Drag a fifth as fast; X, Y: on a line"),
+    (("Wheel",), "In a drag: carry near pins along"),
     (("Tab",), "Other lip or lid under the mouse"),
     (("Shift+Click a pin",), "Select one more"),
     (("Right click a pin",), "What it holds; lock, hide"),

@@ -213,7 +213,7 @@ def _name(
     imgui.push_style_var(imgui.StyleVar_.selectable_text_align, imgui.ImVec2(0, 0.5))
     colour = imgui.get_style_color_vec4(imgui.Col_.text_disabled if pin.hidden else imgui.Col_.text)
     imgui.push_style_color(imgui.Col_.text, colour)
-    shown = shortened(title, imgui.get_content_region_avail().x)
+    shown = _fitting(title, imgui.get_content_region_avail().x)
     size = imgui.ImVec2(0, imgui.get_frame_height())
     clicked, _ = imgui.selectable(f"{shown}###row", pin.vertex in selected, flags, size)
     imgui.pop_style_color()
@@ -231,6 +231,14 @@ def _name(
     if not keys.key_shift:
         view._anchor = pin.vertex
     return SelectPins(now)
+
+
+def _fitting(title: str, width: float) -> str:
+    """Return what there is room for of a title: of "mouth corner, left" the side is kept."""
+    head, comma, side = title.rpartition(", ")
+    if not head or imgui.calc_text_size(title).x <= width:
+        return shortened(title, width)
+    return shortened(head, width - imgui.calc_text_size(comma + side).x) + comma + side
 
 
 def picked(

@@ -10,6 +10,7 @@ from facepin.core.events import (
     PointerMoved,
     PointerPressed,
     PointerReleased,
+    Scrolled,
 )
 from facepin.core.pose import Pin
 from facepin.session.aim import Aim, aim_at
@@ -37,6 +38,8 @@ class DragTool:
     """What a press would take where no pin is under the mouse."""
     gesture: Gesture | None = None
     """What is going on from press to release."""
+    radius: float = 0.0
+    """How far along the skin a drag carries other pins along, as a share of the face height."""
     remark: str = ""
     """Something to say to the user; who says it empties it."""
     _before: frozenset[int] = frozenset()
@@ -59,7 +62,9 @@ class DragTool:
     @property
     def held(self) -> frozenset[int]:
         """Vertices of the pins in the hand."""
-        return self.gesture.vertices if isinstance(self.gesture, Hold) else frozenset()
+        if not isinstance(self.gesture, Hold):
+            return frozenset()
+        return self.gesture.vertices | self.gesture.along.keys()
 
     @property
     def nudging(self) -> bool:
@@ -87,6 +92,10 @@ class DragTool:
                 pixel = self._led((x, y))
                 gesture, self.gesture, self._course = self.gesture, None, None
                 return self._listened(gesture, gesture.release(pixel))
+            case Scrolled(steps=steps) if isinstance(self.gesture, Hold) and self._course is not None:
+                self.gesture.widen(steps)
+                self.radius = self.gesture.radius
+                return self._listened(self.gesture, self.gesture.move(self._course.pixel))
             case PointerMoved(x, y):
                 self._pointed = (x, y)
                 self.hovered, self.aim = self._under((x, y), sight)
@@ -195,6 +204,7 @@ class DragTool:
                 self.gesture = span(pixel, sight, self.selected, adds=adds, keeps=adds)
             return None
         hold = take(vertex, pixel, sight, self.selected, adds=adds)
+        hold.radius = self.radius
         self.gesture = hold
         self._course = Course(pixel, SLACK * sight.scale if sight.steady else 0.0, coarse=adds)
         return self._listened(hold, Edit("Place pin", False, hold.pins) if hold.placed else None)

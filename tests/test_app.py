@@ -248,6 +248,7 @@ def _answer(app: App, command: Command, path: Path) -> None:
 def test_f12_saves_what_the_viewport_shows(tmp_path: Path) -> None:
     with running(pictures=tmp_path / "shots", scale=1.25, size=(700, 420)) as app:
         app.desk.view.guide.step = 99  # what stands over the picture is not in it
+        app.desk.view.gaze.shown = False
         app.press(*app.pixel_of(2000))
         app.release(*app.pixel_of(2000))
         for mode in MODES:
@@ -261,7 +262,7 @@ def test_f12_saves_what_the_viewport_shows(tmp_path: Path) -> None:
             shown = app.screenshot()[y : y + saved.shape[0], x : x + saved.shape[1]]
             # The legend of the heat map is a panel over the picture.
             same = np.abs(shown.astype(int) - saved[..., :3]).max(axis=2)[2:] <= 1
-            assert same[:, : -saved.shape[1] // 3].mean() > 0.995, (
+            assert same[:, : -saved.shape[1] // 3].mean() > 0.996, (
                 "but for lines that round to the next pixel"
             )
         app.key("f12")
@@ -360,7 +361,7 @@ def test_cameras_can_be_unlinked() -> None:
         app.ask(AddPane(choose("tikhonov")))
         app.step(PointerMoved(5, 5), frames=3)
         corner = app.frame.viewports[1]
-        at = (corner.x + corner.width - 30, corner.y + corner.height - 30)
+        at = (corner.x + corner.width - 30, corner.y + corner.height - 90)  # above what floats there
         app.drag(at, (at[0] - 40, at[1]))
         assert app.desk.cameras[0] == app.desk.cameras[1]
         app.desk.view.linked = False

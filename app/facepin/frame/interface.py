@@ -381,9 +381,9 @@ def _hand(
         axis, pressed = desk.tool.line
         place = next((each for each in viewports if each.contains(*pressed)), viewport)
         axis_line(axis, pressed, place, pixel_ratio, scale)
-    held = desk.tool.gesture
-    if isinstance(held, Hold) and held.moved and held.radius > 0:
-        soft_ring(held, stage.positions(session.active), pixel_ratio, scale)
+    gesture = desk.tool.gesture
+    if isinstance(gesture, Hold) and gesture.moved and gesture.radius > 0:
+        soft_ring(gesture, stage.positions(session.active), pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
     asked = symmetry_button(desk.view.symmetric, desk.view.habit, viewport, pixel_ratio, scale)

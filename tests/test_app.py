@@ -244,7 +244,8 @@ def _answer(app: App, command: Command, path: Path) -> None:
 
 def test_f12_saves_what_the_viewport_shows(tmp_path: Path) -> None:
     with running(pictures=tmp_path / "shots", scale=1.25, size=(700, 420)) as app:
-        app.desk.view.guide.step = 99  # what stands over the picture is not in it
+        # What stands over the picture is not in it.
+        app.desk.view.guide.step, app.desk.view.gaze.shown = 99, False
         app.press(*app.pixel_of(2000))
         app.release(*app.pixel_of(2000))
         for mode in MODES:

@@ -39,6 +39,8 @@ def gaze_of(rig: Rig) -> Gaze:
         ("eyeLookLeft_R", [("right", "left")]),
         ("lookUp", [("left", "up"), ("right", "up")]),
         ("LookRight", [("left", "right"), ("right", "right")]),
+        ("eyesDown", [("left", "down"), ("right", "down")]),
+        ("eyesClosed", []),
         ("eyeLookUpLeft_50", []),
         ("eyeLookIn", []),
         ("look", []),

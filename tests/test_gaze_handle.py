@@ -166,3 +166,24 @@ def test_in_a_comparison_each_pane_has_its_own() -> None:
         assert app.session.active == 1
         assert app.session.panes[1].pose.weights.any() and not app.session.panes[0].pose.weights.any()
         assert handle(app, 1) == pytest.approx((x + 15, y), abs=0.5)
+
+
+def test_eyes_at_their_limit_come_back_to_it() -> None:
+    with running(ADA) as app:
+        names = app.session.rig.shape_names
+        ahead = np.array(["Up" in name or "Down" in name for name in names])  # only from side to side
+        app.session.set_control("Lock", replace(app.session.control, locked=ahead))
+        out = names.index("eyeLookOutLeft")
+        x, y = handle(app)
+        app.drag((x, y), (x + 200, y))
+        before = app.session.pose.weights
+        assert before[out] == 1
+        x, y = handle(app)
+        app.press(x, y)
+        app.move(x - 30, y)
+        app.step()
+        assert app.session.pose.weights[out] < 1
+        app.move(x + 30, y)
+        app.step()
+        assert np.array_equal(app.session.pose.weights, before)
+        app.release(x + 30, y)

@@ -127,6 +127,8 @@ def named_turns(name: str) -> list[tuple[Side, Way]]:
         found = _RUN_TOGETHER.fullmatch(word)
         words += [part for part in found.groups() if part] if found else [word]
     at = next((at for at, word in enumerate(words) if word in ("look", "looks", "gaze")), None)
+    if at is None and len(words) == 2 and words[0] == "eyes":
+        at = 0  # eyesUp
     if at is None or len(words) == at + 1:
         return []
     way, behind = words[at + 1], words[at + 2 :]

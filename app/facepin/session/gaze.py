@@ -36,6 +36,8 @@ class GazeHold:
     """The selected pins, which stay so."""
     remark: str = ""
     _begun: bool = False
+    _turned: bool = False
+    """The eyes have moved: they may have to go back to where they were."""
 
     @property
     def vertices(self) -> frozenset[int]:
@@ -62,8 +64,9 @@ class GazeHold:
         if len(held):
             names = listed([self.sight.rig.shape_names[j] for j in held])
             self.remark = f"Locked, and stays as it is: {names}"
-        if np.array_equal(looking[self.gaze.shapes], weights[self.gaze.shapes]) and not final:
+        if np.array_equal(looking, weights) and not self._turned:
             return None
+        self._turned = True
         return Edit("Move the gaze", final, weights=looking)
 
     def _place(self, pixel: Pixel) -> Floats:

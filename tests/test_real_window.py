@@ -89,12 +89,13 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
         assert saved["panes"][0]["weights"]["jawOpen"] > 0.1
         assert len(saved["pins"]) == 1
         hand.do("key", "ctrl+z")
-        assert _wait_for(lambda: hand.do("search", "--name", r"\* - Facepin$")), "undone, so not as saved"
+        unsaved = r"\* - ada - Facepin$"
+        assert _wait_for(lambda: hand.do("search", "--name", unsaved)), "undone, so not as saved"
         undone = _save(hand, tmp_path / "undone.facepin")
         assert not undone["panes"][0]["weights"]
         assert not undone["pins"]
         hand.do("key", "ctrl+shift+z")
-        assert _wait_for(lambda: hand.do("search", "--name", r"\* - Facepin$")), "redone, so not as saved"
+        assert _wait_for(lambda: hand.do("search", "--name", unsaved)), "redone, so not as saved"
         redone = _save(hand, tmp_path / "redone.facepin")
         assert redone["panes"] == saved["panes"]
         hand.do("key", "ctrl+q")
@@ -115,6 +116,9 @@ def _save(hand: Hand, path: Path) -> dict[str, Any]:
         hand.do("type", "--delay", 8, str(path))
         hand.do("key", "Return")
         if _wait_for(lambda: "there" if path.exists() else "", 8 * pause):
+            # Until its title says so, the window may still take keys for the path.
+            _wait_for(lambda: hand.do("search", "--name", f"^{path.name} - "))
+            time.sleep(0.3)
             return json.loads(path.read_text())
         hand.do("key", "Escape")
     raise AssertionError(f"{path.name} was not saved")

@@ -106,7 +106,7 @@ def test_another_solver_is_asked_for_the_same_drag() -> None:
     other.apply(Edit("Set", True, weights=np.array([0.5, 0, 0, 0])))
     other.apply(Edit("Drag pin", True, pins, solve=True))
     np.testing.assert_array_equal(session.pose.weights, other.pose.weights)
-    assert session.undo_label == "Solve with Tikhonov"
+    assert session.undo_label == f"Solve with {SOLVERS['tikhonov'].title}"
     there = session.work
     session.choose_solver(0, choose("hybrid"), final=False)
     session.choose_solver(0, choose("tikhonov"))

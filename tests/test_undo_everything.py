@@ -11,6 +11,7 @@ import pytest
 from facepin.actions import carry_out
 from facepin.core.arrays import Points
 from facepin.core.control import ShapeControl
+from facepin.core.places import find_places
 from facepin.core.pose import Pin, as_vector
 from facepin.core.shading import MODES
 from facepin.desk.desk import Desk
@@ -61,6 +62,8 @@ class BareStage:
 
     def __init__(self, session: Session) -> None:
         self.session = session
+
+    places = find_places(RIG)
 
     def update(self) -> bool:
         return False

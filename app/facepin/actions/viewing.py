@@ -47,8 +47,9 @@ def act(request: Request, desk: Desk) -> bool:
             for each in (*desk.view.panes, desk.view.reference):
                 if (each.shading == "heat") == on:
                     each.toggle_heat()
-        case Command.SHOW_REFERENCE if stage.session.work.reference is not None:
-            desk.view.reference_shown = not desk.view.reference_shown
+        case Command.SHOW_REFERENCE:
+            if stage.session.work.reference is not None:
+                desk.view.reference_shown = not desk.view.reference_shown
         case ShadeAs(mode):
             shown.mode = mode
         case Command.WIREFRAME:

@@ -48,6 +48,8 @@ LID, SQUINT, LIP, BROW, LASHES, SUNK = 0.18, 0.3, 0.3, 0.45, 0.05, 0.12
 LIP_REACH, CORNER, NOSE_OUT, CHIN_OUT, TOOTH = 0.24, 0.11, 0.33, 0.35, 0.35
 LOWEST, JAW_RISE = 0.95, 0.4
 """Where the neck begins below the chin, and how that rises towards the corner of the jaw."""
+BENEATH = -0.6
+"""Below this, what the jaw does not move is the neck too."""
 FACE_DEPTH, HEAD_DEPTH = 0.6, 1.5
 """How far behind the eyes the front of the face reaches, and its sides."""
 
@@ -240,6 +242,7 @@ def _skin(rig: Rig, moves: _Moves, frame: _Frame, skin: Flags) -> NDArray[np.obj
         (neck, "neck"),
         (front & (share("jaw", "open", "drop") > 0.5) & (x < CHIN_OUT) & (y < 0), "chin"),
         ((share("jaw") > 0.12) & (y < -0.05), "jaw"),
+        (y < BENEATH, "neck"),
         (is_face & (y < 1.0), "cheek"),
         (is_face, "temple"),
     ]

@@ -57,7 +57,7 @@ class HandSettings:
         "more lets the pin follow closer; 3 lets all go along.",
         low=0.0,
         high=FREE,
-        ends=("leave the rest alone", "follow closely"),
+        ends=("leave the rest alone", "let it go along"),
     )
 
 

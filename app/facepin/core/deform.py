@@ -6,7 +6,9 @@ from facepin.core.arrays import Floats, Points
 from facepin.core.rig import Rig
 
 MOST_DIRECTIONS = 8
-"""Directions of weight change that are remembered; each costs one pass over the positions per frame."""
+"""Mixed directions of weight change that are remembered; each costs one pass over the positions per frame."""
+MOST_SHAPES = 16
+"""Single shapes that are remembered instead, where only few change."""
 CANCELLATION = 8.0
 """How many times larger than the sum the terms of a sum may be, before float32 loses too much."""
 ROUNDING = 2.0**-24
@@ -22,7 +24,8 @@ class Deformer:
     their images B q.  When a change lies among them, the positions are a sum of a few images, whatever the
     number of shapes; otherwise the new direction is multiplied out and remembered.  When too many are known,
     or when a gesture changes far fewer amounts than they do, it starts over from where it is: what does not
-    move then stays put to the last bit, and its normals need no work.
+    move then stays put to the last bit, and its normals need no work.  Where only few amounts have changed
+    since then, as with a sparse solver, whose answers bend from frame to frame, each of them is a direction.
 
     Nothing is accumulated from frame to frame, so nothing drifts: every answer equals `Rig.evaluate` up to
     float32 rounding, whatever was asked before.
@@ -32,11 +35,13 @@ class Deformer:
         self._rig = rig
         self._extent = float(np.abs(rig.neutral).max())
         columns = rig.deltas.shape[1]
-        self._directions = np.zeros((MOST_DIRECTIONS, columns))
+        most = max(MOST_DIRECTIONS, MOST_SHAPES)
+        self._directions = np.zeros((most, columns))
         # Rows: positions at the base weights, then the image of each direction, and how far each can reach.
-        self._images = np.zeros((1 + MOST_DIRECTIONS, rig.neutral.size), np.float32)
-        self._reaches = np.zeros(1 + MOST_DIRECTIONS)
+        self._images = np.zeros((1 + most, rig.neutral.size), np.float32)
+        self._reaches = np.zeros(1 + most)
         self._touched = np.zeros(columns, np.bool_)
+        """Amounts that mixed directions change."""
         self._restart(np.zeros(columns))
         self._amounts = self._base
         self._positions: Points = rig.neutral
@@ -72,9 +77,8 @@ class Deformer:
         rest = change - parts @ directions
         reach = self._extent + self._reach(amounts)
         if self._reach(rest) > ROUNDING * reach:
-            if self._known == MOST_DIRECTIONS:
+            if not self._learn(rest):
                 return self._restart(amounts)
-            self._learn(rest)
             parts = self._directions[: self._known] @ change
         mix = np.concatenate([[1.0], parts])
         # After very large weights (an unregularised solver gives thousands) small ones need a new base.
@@ -92,13 +96,28 @@ class Deformer:
         self._touched[:] = False
         return np.ones(1)
 
-    def _learn(self, rest: Floats) -> None:
-        """Remember the direction of `rest`, which is what the known ones leave over."""
+    def _learn(self, rest: Floats) -> bool:
+        """Remember the directions of `rest`, which is what the known ones leave over; say if there was room."""
+        changed = np.flatnonzero(rest)
+        # A mixed direction among the known ones changes more than one amount.
+        if not self._touched.any() and self._known + len(changed) <= MOST_SHAPES:
+            for column in changed:
+                direction = np.zeros_like(rest)
+                direction[column] = 1.0
+                self._remember(direction)
+            return True
+        if self._known >= MOST_DIRECTIONS:
+            return False
         known = self._directions[: self._known]
         direction = rest / np.linalg.norm(rest)
         direction -= (known @ direction) @ known  # a second time, for what rounding left
         direction /= np.linalg.norm(direction)
         self._touched |= direction != 0
+        self._remember(direction)
+        return True
+
+    def _remember(self, direction: Floats) -> None:
+        """Multiply out one more direction, orthogonal to the known ones and of length 1."""
         self._directions[self._known] = direction
         self._known += 1
         self._images[self._known] = self._rig.columns.product(direction)

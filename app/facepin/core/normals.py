@@ -1,6 +1,6 @@
 """Smooth vertex normals of a face that moves."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +10,8 @@ from facepin.core.arrays import Points
 from facepin.core.cells import Cells, Numbers, area_vectors, make_cells
 from facepin.core.rig import Rig
 
-WHOLE = 0.25
-"""Share of moved cells above which all are computed, for picking out costs as much."""
+WHOLE = 0.5
+"""Share of moved cells above which those round all vertices that any shape moves are computed."""
 NOWHERE = np.float32(1e-6)
 """Added to z (normals have lengths of about 2π), so that those of collapsed cells can be normalised too."""
 
@@ -29,18 +29,18 @@ class NormalField:
     Only cells with a corner that moved are computed again.
     """
 
-    def __init__(self, rig: Rig, cells: Cells | None = None) -> None:
+    def __init__(self, rig: Rig, tables: "_Tables | None" = None) -> None:
         self._rig = rig
-        self._cells = cells or make_cells(rig)
-        self._areas = np.zeros((3, self._cells.diagonals.shape[2]), np.float32)
+        self._tables = tables or _make_tables(rig)
         self._normals: Points = np.zeros_like(rig.neutral)
-        self._watched: Mask = np.ones(rig.vertex_count, np.bool_)
-        self._watch(np.ones(rig.neutral.shape, np.bool_))
+        self._look_at(self._tables.whole, rig.neutral)
         self._compute(rig.neutral)
+        self._look_at(self._tables.movable, rig.neutral)
+        self._usual = rig.neutral.size
 
     def twin(self) -> "NormalField":
         """Return a field for another pane of the same rig, without making its tables again."""
-        return NormalField(self._rig, self._cells)
+        return NormalField(self._rig, self._tables)
 
     def normals(self, positions: Points) -> Points:
         """Normals of posed positions (n, 3).
@@ -54,54 +54,115 @@ class NormalField:
         if positions is not self._positions:
             moved = positions != self._positions
             if (moved & self._still).any() or 2 * np.count_nonzero(moved) < self._usual:
-                self._watch(moved)
+                self._watch(moved, positions)
             self._compute(positions)
         return self._normals
 
-    def _watch(self, moved: Mask) -> None:
+    def _watch(self, moved: Mask, positions: Points) -> None:
         """From now on compute what depends on the vertices whose coordinates `moved` (n, 3) marks.
 
         Those watched so far stay if most of them still move, so that a growing drag settles soon.
         """
-        vertices = moved[:, 0] | moved[:, 1] | moved[:, 2]
-        if 2 * np.count_nonzero(self._watched & vertices) > np.count_nonzero(self._watched):
-            vertices |= self._watched
-        self._watched = vertices
-        self._still = np.repeat(~vertices[:, None], 3, axis=1)
+        vertices, watched = moved[:, 0] | moved[:, 1] | moved[:, 2], self._patch.vertices
+        if 2 * np.count_nonzero(watched & vertices) > np.count_nonzero(watched):
+            vertices |= watched
+        self._look_at(self._tables.patch(vertices), positions)
         self._usual = int(np.count_nonzero(moved))
-        self._patch = _around(self._cells, vertices)
+
+    def _look_at(self, patch: "_Patch", positions: Points) -> None:
+        self._patch = patch
+        self._still: Mask = np.repeat(~patch.vertices[:, None], 3, axis=1)
+        # What does not move stays as it is here: area vectors, and where all is computed, normals too.
+        self._areas = area_vectors(positions, patch.diagonals)
+        ground = np.array(self._normals).reshape(-1, 3)
+        ground[patch.changing] = (0, 0, NOWHERE)
+        self._ground = (ground if patch.coordinates is None else ground[patch.changing]).ravel()
 
     def _compute(self, positions: Points) -> None:
         patch = self._patch
-        areas = area_vectors(np.ascontiguousarray(positions.T), patch.diagonals)
-        normals = self._normals.copy()
-        for axis in range(3):
-            self._areas[axis, patch.cells] = areas[axis]
-            normals[patch.rows, axis] = patch.sums @ self._areas[axis]
-        normals[patch.rows, 2] += NOWHERE
+        area_vectors(positions, patch.moving, out=self._areas[: patch.moving.shape[2]])
+        sums: Points = patch.sums @ self._areas.ravel()
+        sums += self._ground
+        if patch.coordinates is None:
+            normals = sums
+        else:
+            normals = self._normals.flatten()
+            normals[patch.coordinates] = sums
         normals.flags.writeable = False
-        self._positions, self._normals = positions, normals
+        self._positions, self._normals = positions, normals.reshape(-1, 3)
 
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
     """What has to be computed when some vertices move."""
 
-    cells: Numbers | slice
+    vertices: Mask
+    """(n,) those that may move."""
     diagonals: Numbers
-    """Of these cells; see `Cells`."""
-    rows: Numbers | slice
-    """Vertices whose normals depend on the cells."""
+    """Of the cells round all vertices whose normals change, those that move first; see `Cells`."""
+    moving: Numbers
+    """The part of them that is of cells that move."""
+    changing: Numbers
+    """(r,) vertices whose normals change."""
+    coordinates: Numbers | None
+    """Their places in flattened normals, x, y, z of one after the other; None: taken as all there are."""
     sums: csr_array
-    """Turns area vectors of all cells into normals of the rows."""
+    """Turns area vectors of the cells, flattened, into these coordinates; of vertices that are not `changing`
+    it makes nothing."""
 
 
-def _around(cells: Cells, moved: Mask) -> _Patch:
-    """Return what depends on the vertices that `moved` (n,) marks."""
-    touched: Mask = np.logical_or.reduce(moved[cells.diagonals], axis=(0, 1))
-    if np.count_nonzero(touched) > WHOLE * len(touched):
-        return _Patch(slice(None), cells.diagonals, slice(None), cells.sums)
-    chosen = np.flatnonzero(touched)
-    reached: Points = np.asarray(cells.sums @ touched.astype(np.float32))
-    rows = np.flatnonzero(reached)
-    return _Patch(chosen, cells.diagonals[:, :, chosen], rows, cells.sums[rows])
+@dataclass(frozen=True, eq=False)
+class _Tables:
+    """What all fields of a rig share."""
+
+    cells: Cells
+    whole: _Patch
+    movable: _Patch
+    """For whatever shapes can move."""
+
+    def patch(self, vertices: Mask) -> _Patch:
+        """Return what to compute when the vertices (n,) move, or more than they."""
+        touched = _touched(self.cells, vertices)
+        if np.count_nonzero(touched) <= WHOLE * len(touched):
+            return _around(self.cells, vertices, touched)
+        return self.whole if (vertices & ~self.movable.vertices).any() else self.movable
+
+
+def _make_tables(rig: Rig) -> _Tables:
+    cells = make_cells(rig)
+    everything = np.arange(rig.vertex_count)
+    all_of_them = np.ones(rig.vertex_count, np.bool_)
+    whole = _Patch(all_of_them, cells.diagonals, cells.diagonals, everything, None, cells.sums)
+    # Moves that should happen to cancel each other only make the patch smaller than it might be.
+    moved = rig.evaluate(np.ones(rig.shape_count)) != rig.neutral
+    movable: Mask = moved[:, 0] | moved[:, 1] | moved[:, 2]
+    patch = _around(cells, movable, _touched(cells, movable))
+    uses = np.zeros(cells.sums.shape[0], np.int32)
+    uses[patch.coordinates] = np.diff(patch.sums.indptr)
+    starts = np.concatenate([np.zeros(1, np.int32), np.cumsum(uses, dtype=np.int32)])
+    sums = csr_array((patch.sums.data, patch.sums.indices, starts), shape=(len(uses), patch.sums.shape[1]))
+    return _Tables(cells, whole, replace(patch, coordinates=None, sums=sums))
+
+
+def _touched(cells: Cells, vertices: Mask) -> Mask:
+    """Cells (m,) with a corner among the vertices (n,)."""
+    touched: Mask = np.logical_or.reduce(vertices[cells.diagonals], axis=(0, 1))
+    return touched
+
+
+def _around(cells: Cells, vertices: Mask, touched: Mask) -> _Patch:
+    """Return what depends on the vertices (n,), corners of the cells `touched` (m,)."""
+    reached: Points = np.asarray(cells.sums @ np.repeat(touched, 4).astype(np.float32))
+    coordinates = np.flatnonzero(reached)
+    sums = cells.sums[coordinates]
+    cell, axis = sums.indices >> 2, sums.indices & 3
+    used = np.zeros(len(touched), np.bool_)
+    used[cell] = True
+    chosen = np.concatenate([np.flatnonzero(touched), np.flatnonzero(used & ~touched)])
+    place = np.zeros(len(touched), np.int32)
+    place[chosen] = 4 * np.arange(len(chosen))
+    shape = len(coordinates), 4 * len(chosen)
+    sums = csr_array((sums.data, place[cell] + axis, sums.indptr), shape=shape)
+    diagonals = np.ascontiguousarray(cells.diagonals[:, :, chosen])
+    moving = diagonals[:, :, : np.count_nonzero(touched)]
+    return _Patch(vertices, diagonals, moving, coordinates[::3] // 3, coordinates, sums)

@@ -127,7 +127,9 @@ def test_a_small_move_costs_only_its_surroundings(monkeypatch: pytest.MonkeyPatc
     field.normals(rig.evaluate(np.array([0.2, 0.5])))  # from now on only one vertex moves
     cells: list[int] = []
     area_vectors = module.area_vectors
-    monkeypatch.setattr(module, "area_vectors", lambda p, d, out: cells.append(d.shape[2]) or area_vectors(p, d, out))
+    monkeypatch.setattr(
+        module, "area_vectors", lambda p, d, out: cells.append(d.shape[2]) or area_vectors(p, d, out)
+    )
     for weight in (0.3, 0.4, 0.5):
         field.normals(rig.evaluate(np.array([weight, 0.5])))
     assert cells == [4, 4, 4]

@@ -67,8 +67,8 @@ def area_vectors(points: Points, diagonals: Numbers, out: Points | None = None) 
         x, y and z, then a number that means nothing.
     """
     areas: Points = np.zeros((diagonals.shape[2], 4), np.float32) if out is None else out
-    # In the order y, z, x, y a cross product is the same formula all along a row of numbers.  And four numbers
-    # are gathered as fast as one, once they pass for a single number of 16 bytes.
+    # In the order y, z, x, y a cross product is the same formula all along a row of numbers.  And four
+    # numbers are gathered as fast as one, once they pass for a single number of 16 bytes.
     turned = np.zeros((len(points), 4), np.float32)
     for place, axis in enumerate((1, 2, 0, 1)):
         turned[:, place] = points[:, axis]

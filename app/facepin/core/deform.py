@@ -97,7 +97,7 @@ class Deformer:
         return np.ones(1)
 
     def _learn(self, rest: Floats) -> bool:
-        """Remember the directions of `rest`, which is what the known ones leave over; say if there was room."""
+        """Remember the directions of `rest`, what the known ones leave over; say if there was room."""
         changed = np.flatnonzero(rest)
         # A mixed direction among the known ones changes more than one amount.
         if not self._touched.any() and self._known + len(changed) <= MOST_SHAPES:

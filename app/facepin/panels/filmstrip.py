@@ -28,15 +28,9 @@ def filmstrip_window(
     scale : float
         Pixels per pixel of a 1x screen.
     """
-    side, gap = SIDE * scale, imgui.get_style().item_spacing.x
-    width = min(6 * (side + gap), 0.62 * imgui.get_main_viewport().work_size.x)
-    style = imgui.get_style()
-    around = imgui.get_frame_height() + imgui.get_frame_height_with_spacing() + 2 * style.window_padding.y
-    size = imgui.ImVec2(width, around + _strip_height(side) + style.scrollbar_size)
+    side = SIDE * scale
+    size = imgui.ImVec2(6 * (side + imgui.get_style().item_spacing.x), strip_height(scale))
     imgui.set_next_window_size(size, imgui.Cond_.first_use_ever)
-    work, inset = imgui.get_main_viewport(), 12 * scale
-    below = imgui.ImVec2(work.work_pos.x + inset, work.work_pos.y + work.work_size.y - inset)
-    imgui.set_next_window_pos(below, imgui.Cond_.first_use_ever, imgui.ImVec2(0, 1))  # not over the face
     opened, stays = imgui.begin(TITLE, True)
     asked: Command | None = None
     if opened:
@@ -55,6 +49,13 @@ def filmstrip_window(
         imgui.end_child()
     imgui.end()
     return bool(stays), asked
+
+
+def strip_height(scale: float) -> float:
+    """Return the height of the window at which its pictures have their full size, in imgui units."""
+    style = imgui.get_style()
+    around = imgui.get_frame_height() + imgui.get_frame_height_with_spacing() + 2 * style.window_padding.y
+    return around + _strip_height(SIDE * scale) + style.scrollbar_size
 
 
 def _strip(stills: Sequence[Still], tile: Callable[[Floats], Tile | None], side: float, scale: float) -> None:

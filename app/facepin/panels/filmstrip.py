@@ -10,8 +10,8 @@ from facepin.panels.tiles import Tile, draw_tile, shortened
 from facepin.session.filmstrip import Still
 
 TITLE = "Filmstrip"
-SIDE = 132.0
-"""Of a picture, at 1x scale."""
+SIDE, LEAST = 132.0, 48.0
+"""Of a picture, at 1x scale: at most, and where the window is low."""
 
 
 def filmstrip_window(
@@ -28,8 +28,7 @@ def filmstrip_window(
     scale : float
         Pixels per pixel of a 1x screen.
     """
-    side = SIDE * scale
-    size = imgui.ImVec2(6 * (side + imgui.get_style().item_spacing.x), strip_height(scale))
+    size = imgui.ImVec2(6 * (SIDE * scale + imgui.get_style().item_spacing.x), strip_height(scale))
     imgui.set_next_window_size(size, imgui.Cond_.first_use_ever)
     opened, stays = imgui.begin(TITLE, True)
     asked: Command | None = None
@@ -44,6 +43,8 @@ def filmstrip_window(
             imgui.text_disabled("Pose the face: every step that changes it appears here.")
         else:
             imgui.text_disabled(f"{len(stills) - 1} step{'' if len(stills) == 2 else 's'} to this pose")
+        room = imgui.get_content_region_avail().y - imgui.get_style().scrollbar_size - _strip_height(0.0)
+        side = min(max(room, LEAST * scale), SIDE * scale)
         if imgui.begin_child("strip", imgui.ImVec2(0, 0), 0, imgui.WindowFlags_.horizontal_scrollbar):
             _strip(stills, tile, side, scale)
         imgui.end_child()

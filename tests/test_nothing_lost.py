@@ -443,9 +443,11 @@ def test_the_history_window_goes_to_any_step(rig: Path) -> None:
         app.key("z", control=True, alt=True)
         assert app.desk.view.history
         frames(app)
-        row = 18.0 + 3.0
-        app.press(60, 21 + 12 + 24 + 8 + 2.5 * row)
-        app.release(60, 21 + 12 + 24 + 8 + 2.5 * row)
+        window = imgui.internal.find_window_by_name("History")
+        top = window.pos.y + imgui.get_frame_height() + imgui.get_style().window_padding.y - window.scroll.y
+        row = top + 2.5 * imgui.get_text_line_height_with_spacing()
+        app.press(window.pos.x + 60, row)
+        app.release(window.pos.x + 60, row)
         frames(app)
         assert app.session.step == 2
         assert app.session.pose.weights[0] == 0.2

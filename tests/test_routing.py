@@ -142,8 +142,9 @@ def test_escape_ends_one_thing_at_a_time(over: str) -> None:
 
 def test_function_keys_are_heard_while_something_is_typed() -> None:
     with running() as app:
-        app.press(1012, 237)  # the search for a shape
-        app.release(1012, 237)
+        y = imgui.internal.find_window_by_name("Weights").pos.y + 45
+        app.press(1012, y)  # the search for a shape
+        app.release(1012, y)
         app.step(PointerMoved(5, 5), frames=2)
         assert imgui.get_io().want_text_input
         app.step(KeyPressed("w"), KeyPressed("f4"), frames=2)

@@ -71,6 +71,9 @@ def test_a_scene_comes_back_bit_for_bit(tmp_path: Path) -> None:
     session = worked()
     write_scene(tmp_path / "a.facepin", scene_of(snapshot(session), draft=False))
     found = resume(read_scene(tmp_path / "a.facepin"), RIG)
+    assert not found.reference_shown
+    shown = scene_of(snapshot(session, reference_shown=True), draft=False)
+    assert parse_scene(scene_bytes(shown, None), "s").reference_shown
     again = Session.resumed(RIG, found.work, found.active)
     same_work(session, again)
     np.testing.assert_array_equal(again.work.reference, session.work.reference)

@@ -200,6 +200,8 @@ def _loop(
         asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
+        if reset_layout:
+            view.beside.forget()
         reset_layout = False
         stage = desk.stage
         if stage is not None:

@@ -242,6 +242,7 @@ class Desk:
             self.view.linked,
             self.keeper.file,
             opening.scene.sections if isinstance(opening, SceneOpening) else {},
+            self.view.reference_shown,
         )
 
     def keep(self) -> None:
@@ -317,6 +318,7 @@ class Desk:
         self.view.panes = list(begun.views)
         if begun.linked is not None:
             self.view.linked = begun.linked
+        self.view.reference_shown = begun.reference_shown
         self._numbers, self._looks = [pane.number for pane in session.panes], {}
 
     def ask(

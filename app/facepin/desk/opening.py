@@ -34,6 +34,8 @@ class Begun:
     linked: bool | None = None
     """None leaves it as it is."""
     complaint: str = ""
+    reference_shown: bool = False
+    """Whether the reference has a pane of its own."""
     """What could not be as asked, in one line."""
 
 
@@ -102,7 +104,7 @@ class SceneOpening:
         """
         found = resume(self.scene, rig)
         session = Session.resumed(rig, found.work, found.active)
-        return Begun(session, found.cameras, found.views, found.linked, found.report)
+        return Begun(session, found.cameras, found.views, found.linked, found.report, found.reference_shown)
 
 
 Opening = RigOpening | SceneOpening

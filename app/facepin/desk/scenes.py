@@ -54,6 +54,7 @@ class Snapshot:
     """The scene file that it is work on."""
     sections: Mapping[str, Any]
     """What that file held for other versions of the program."""
+    reference_shown: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +67,7 @@ class Resumed:
     """None where the face has to be framed anew."""
     views: tuple[PaneView, ...]
     linked: bool
+    reference_shown: bool
     report: str
     """What did not fit, in one line; empty if all did."""
 
@@ -112,6 +114,7 @@ def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
         None if work.reference is None else named(work.reference),
         snapshot.active,
         snapshot.linked,
+        snapshot.reference_shown,
         snapshot.of if draft else None,
         snapshot.sections,
     )
@@ -156,6 +159,7 @@ def resume(scene: Scene, rig: Rig) -> Resumed:
         tuple(pane.camera if same else None for pane in scene.panes),
         tuple(_view(pane.shown) for pane in scene.panes),
         scene.linked,
+        scene.reference_shown,
         "; ".join(report + weights.report()),
     )
 

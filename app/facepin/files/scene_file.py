@@ -23,7 +23,7 @@ FORMAT, VERSION = "facepin-scene", 1
 SUFFIX = ".facepin"
 KNOWN = {
     *("format", "version", "rig", "of", "panes", "active", "linked"),
-    *("pins", "control", "twins", "reference"),
+    *("pins", "control", "twins", "reference", "reference_shown"),
 }
 """Sections that this program knows."""
 MOST_PANES = 16
@@ -100,6 +100,8 @@ class Scene:
     active: int = 0
     linked: bool = True
     """One camera for all panes."""
+    reference_shown: bool = False
+    """The reference has a pane of its own."""
     of: Path | None = None
     """For a draft: the scene file whose unsaved work it is."""
     sections: Mapping[str, Any] = field(default_factory=dict)
@@ -176,6 +178,7 @@ def scene_bytes(scene: Scene, beside: Path | None, *, indent: int | None = None)
         document["twins"] = [list(pair) for pair in scene.twins]
     if scene.reference is not None:
         document["reference"] = dict(scene.reference)
+        document["reference_shown"] = scene.reference_shown
     document |= {key: value for key, value in scene.sections.items() if key not in document}
     return (json.dumps(document, indent=indent, allow_nan=False) + "\n").encode()
 
@@ -205,6 +208,7 @@ def parse_scene(content: bytes, where: str) -> Scene:
         _weights(document, "reference") if "reference" in document else None,
         document.integer("active", 0, high=len(panes) - 1),
         document.flag("linked", True),
+        document.flag("reference_shown", False),
         _path(document, "of"),
         _sections({key: value for key, value in document.values.items() if key not in KNOWN}, where),
     )

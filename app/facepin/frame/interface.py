@@ -19,9 +19,12 @@ from facepin.desk.stage import Stage
 from facepin.files.drafts import Leftover
 from facepin.panels import layout
 from facepin.panels.about import about_window
+from facepin.panels.chart import SIZE as CHART_SIZE
+from facepin.panels.chart import TITLE as CHART
 from facepin.panels.chart import chart_window
 from facepin.panels.commands import Command
-from facepin.panels.filmstrip import filmstrip_window
+from facepin.panels.filmstrip import TITLE as FILMSTRIP
+from facepin.panels.filmstrip import filmstrip_window, strip_height
 from facepin.panels.gaze import draw_gaze
 from facepin.panels.guide import Hand, draw_guide
 from facepin.panels.hand import (
@@ -34,6 +37,7 @@ from facepin.panels.hand import (
     soft_ring,
     symmetry_button,
 )
+from facepin.panels.history import TITLE as HISTORY
 from facepin.panels.history import history_window
 from facepin.panels.keyboard import keyboard_map
 from facepin.panels.legend import heat_legend
@@ -179,12 +183,15 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         desk.apply(blend)
     chart: Request | None = None
     film: Request | None = None
+    count = 1 if desk.stage is None else len(desk.stage.panes)
     if desk.view.chart and session is not None:
+        desk.view.beside.left(CHART, CHART_SIZE[0] * scale, count, layout.WEIGHTS)
         desk.view.chart, chart = chart_window(
             session.rig, session.panes, session.work.reference, scale, theme
         )
     if desk.view.filmstrip and session is not None and desk.portraits is not None:
         stills = desk.filmstrip.stills(session)
+        desk.view.beside.below(FILMSTRIP, strip_height(scale))
         desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
     return [asked for asked in (request, of_pins, wish, chart, film, *more) if asked is not None]
 
@@ -238,7 +245,8 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
     asked: list[Request | None] = []
     if view.history and session is not None:
         steps, step = session.steps, session.step
-        view.history, wanted = history_window(session.rig, steps, step, *place, scale, view.theme)
+        view.beside.in_front_of(layout.WEIGHTS, HISTORY)
+        view.history, wanted = history_window(session.rig, steps, step, scale, view.theme)
         asked.append(wanted)
     if view.tidy is not None:
         asked.append(_tidy(desk, view.tidy, place, scale))
@@ -307,7 +315,8 @@ def over_picture(
         looks = [*looks, look]
     hot = [at for look, at in zip(looks, viewports, strict=False) if look.shading == "heat"]
     if hot:  # one scale for all
-        heat_legend(session.rig.height, hot[-1], pixel_ratio, scale)
+        place = layout.unused(viewport, viewports) or hot[-1]
+        heat_legend(session.rig.height, place, pixel_ratio, scale)
     _vertex_under_mouse(desk, stage, viewports, pixel_ratio, scale)
     if (chip := _hand(desk, session, stage, viewport, viewports, pixel_ratio, scale)) is not None:
         asked.append(chip)
@@ -317,7 +326,7 @@ def over_picture(
 
 
 def _seams(viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float) -> None:
-    """Draw the gaps between panes as dark as what is beside them, whatever the theme."""
+    """Draw what is between panes, or left over by them, as dark as what is beside them in any theme."""
 
     def corner(x: float, y: float) -> imgui.ImVec2:
         return imgui.ImVec2(x / pixel_ratio, y / pixel_ratio)
@@ -326,10 +335,12 @@ def _seams(viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float
     right, bottom = viewport.x + viewport.width, viewport.y + viewport.height
     draw.push_clip_rect(corner(viewport.x, viewport.y), corner(right, bottom), False)
     for at in viewports:
-        half = scale * pixel_ratio
+        half = 1.5 * scale * pixel_ratio
         upper = corner(at.x - half, at.y - half)
         lower = corner(at.x + at.width + half, at.y + at.height + half)
-        draw.add_rect(upper, lower, packed(PICTURE.bar), 0.0, thickness=2 * scale)
+        draw.add_rect(upper, lower, packed(PICTURE.bar), 0.0, thickness=3 * scale)
+    if (rest := layout.unused(viewport, viewports)) is not None:
+        draw.add_rect_filled(corner(rest.x, rest.y), corner(right, bottom), packed(PICTURE.bar))
     draw.pop_clip_rect()
 
 

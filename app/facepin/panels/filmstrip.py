@@ -10,8 +10,8 @@ from facepin.panels.tiles import Tile, draw_tile, shortened
 from facepin.session.filmstrip import Still
 
 TITLE = "Filmstrip"
-SIDE = 132.0
-"""Of a picture, at 1x scale."""
+SIDE, LEAST = 132.0, 48.0
+"""Of a picture, at 1x scale: at most, and where the window is low."""
 
 
 def filmstrip_window(
@@ -28,15 +28,8 @@ def filmstrip_window(
     scale : float
         Pixels per pixel of a 1x screen.
     """
-    side, gap = SIDE * scale, imgui.get_style().item_spacing.x
-    width = min(6 * (side + gap), 0.62 * imgui.get_main_viewport().work_size.x)
-    style = imgui.get_style()
-    around = imgui.get_frame_height() + imgui.get_frame_height_with_spacing() + 2 * style.window_padding.y
-    size = imgui.ImVec2(width, around + _strip_height(side) + style.scrollbar_size)
+    size = imgui.ImVec2(6 * (SIDE * scale + imgui.get_style().item_spacing.x), strip_height(scale))
     imgui.set_next_window_size(size, imgui.Cond_.first_use_ever)
-    work, inset = imgui.get_main_viewport(), 12 * scale
-    below = imgui.ImVec2(work.work_pos.x + inset, work.work_pos.y + work.work_size.y - inset)
-    imgui.set_next_window_pos(below, imgui.Cond_.first_use_ever, imgui.ImVec2(0, 1))  # not over the face
     opened, stays = imgui.begin(TITLE, True)
     asked: Command | None = None
     if opened:
@@ -50,11 +43,20 @@ def filmstrip_window(
             imgui.text_disabled("Pose the face: every step that changes it appears here.")
         else:
             imgui.text_disabled(f"{len(stills) - 1} step{'' if len(stills) == 2 else 's'} to this pose")
+        room = imgui.get_content_region_avail().y - imgui.get_style().scrollbar_size - _strip_height(0.0)
+        side = min(max(room, LEAST * scale), SIDE * scale)
         if imgui.begin_child("strip", imgui.ImVec2(0, 0), 0, imgui.WindowFlags_.horizontal_scrollbar):
             _strip(stills, tile, side, scale)
         imgui.end_child()
     imgui.end()
     return bool(stays), asked
+
+
+def strip_height(scale: float) -> float:
+    """Return the height of the window at which its pictures have their full size, in imgui units."""
+    style = imgui.get_style()
+    around = imgui.get_frame_height() + imgui.get_frame_height_with_spacing() + 2 * style.window_padding.y
+    return around + _strip_height(SIDE * scale) + style.scrollbar_size
 
 
 def _strip(stills: Sequence[Still], tile: Callable[[Floats], Tile | None], side: float, scale: float) -> None:

@@ -19,7 +19,7 @@ NOTEWORTHY = 0.005
 
 
 def history_window(
-    rig: Rig, steps: Sequence[Step[Work]], at: int, left: float, top: float, scale: float, theme: Theme
+    rig: Rig, steps: Sequence[Step[Work]], at: int, scale: float, theme: Theme
 ) -> tuple[bool, GoToStep | None]:
     """Draw the history; return whether it stays open, and the step that the user clicked.
 
@@ -31,15 +31,11 @@ def history_window(
         From the first; those after `at` are undone.
     at : int
         The current one.
-    left, top : float
-        Where the picture begins, in imgui units: there it stands at first.
     scale : float
         imgui units per pixel of a 1x screen.
     theme : Theme
         Colours.
     """
-    inset = 12 * scale
-    imgui.set_next_window_pos(imgui.ImVec2(left + inset, top + inset), imgui.Cond_.first_use_ever)
     imgui.set_next_window_size(imgui.ImVec2(SIZE[0] * scale, SIZE[1] * scale), imgui.Cond_.first_use_ever)
     shown, stays = imgui.begin(TITLE, True)
     asked: GoToStep | None = None

@@ -1,11 +1,13 @@
 """Where the panels are: docked beside the viewport, movable, and how they stand at first."""
 
+from collections.abc import Sequence
 from math import ceil
 
 from imgui_bundle import imgui
 
 from facepin.core.camera import Viewport
 
+SPACE = "panels"
 WEIGHTS = "Weights"
 SOLVER = "Solver"
 PINS = "Pins"
@@ -27,6 +29,8 @@ SIGN = (
     | imgui.WindowFlags_.no_bring_to_front_on_focus
 )
 """What a small window over the picture is like: it stays where it is put, behind everything else."""
+MOST_TAKEN = 0.5
+"""Share of the picture that a window takes at most when it opens below."""
 MOST_EVEN = 4
 """Panes that are put into full rows only."""
 FACE_ASPECT = 0.75
@@ -45,7 +49,7 @@ def dock_space(scale: float, pixel_ratio: float, *, reset: bool) -> Viewport:
     reset : bool
         Put all panels back to where they stood first.
     """
-    space = imgui.get_id("panels")
+    space = imgui.get_id(SPACE)
     if reset or imgui.internal.dock_builder_get_node(space) is None:
         _build(space, scale)
     push_no_ground()
@@ -145,6 +149,71 @@ def beside(name: str, other: str) -> None:
         imgui.set_next_window_dock_id(window.dock_id, imgui.Cond_.first_use_ever)
 
 
+class Beside:
+    """Gives windows that open later a place where they do not cover the faces, once.
+
+    Where the user puts them from then on they stay, also in later runs.
+    """
+
+    def __init__(self) -> None:
+        self._known: set[str] = set()
+        self._anew = False
+
+    def forget(self) -> None:
+        """Begin anew: the panels were put back to where they stood first."""
+        self._known.clear()
+        self._anew = True
+
+    def left(self, name: str, width: float, panes: int, otherwise: str) -> None:
+        """Dock the next window, `name`, left of the picture if the faces there lose nothing.
+
+        Otherwise it becomes a tab in front of another window.
+
+        Parameters
+        ----------
+        name, otherwise : str
+            Of the window and of the other one.
+        width : float
+            In imgui units.
+        panes : int
+            How many faces there are.
+        """
+        middle = imgui.internal.dock_builder_get_central_node(imgui.get_id(SPACE)).size
+        before, after = (
+            max(_face(Viewport(0, 0, room, middle.y), n, ceil(panes / n)) for n in range(1, panes + 1))
+            for room in (middle.x, middle.x - width)
+        )
+        if after < before:
+            self.in_front_of(otherwise, name)
+        else:
+            self._at_side(name, imgui.Dir.left, width / max(middle.x, 1.0))
+
+    def below(self, name: str, height: float) -> None:
+        """Dock the next window, `name`, below the picture, `height` imgui units high."""
+        middle = imgui.internal.dock_builder_get_central_node(imgui.get_id(SPACE)).size
+        self._at_side(name, imgui.Dir.down, min(height / max(middle.y, 1.0), MOST_TAKEN))
+
+    def in_front_of(self, other: str, name: str) -> None:
+        """Dock the next window, `name`, as a tab in front of another one, if that is docked."""
+        window = imgui.internal.find_window_by_name(other)
+        if window is not None and window.dock_id and self._is_new(name):
+            imgui.set_next_window_dock_id(window.dock_id, imgui.Cond_.always)
+
+    def _at_side(self, name: str, side: imgui.Dir, share: float) -> None:
+        if self._is_new(name):
+            middle = imgui.internal.dock_builder_get_central_node(imgui.get_id(SPACE))
+            _, node, _ = imgui.internal.dock_builder_split_node_py(middle.id_, side, share)
+            imgui.set_next_window_dock_id(node, imgui.Cond_.always)
+
+    def _is_new(self, name: str) -> bool:
+        """Say whether a window has no place yet; from now on it has."""
+        if name in self._known:
+            return False
+        self._known.add(name)
+        kept = imgui.internal.find_window_settings_by_id(imgui.internal.im_hash_str(name))
+        return self._anew or kept is None
+
+
 def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
     """Cut a viewport into `count` equal panes, in rows and columns that leave a face as large as possible.
 
@@ -175,6 +244,15 @@ def split(viewport: Viewport, count: int, gap: float) -> tuple[Viewport, ...]:
         )
         for at in range(count)
     )
+
+
+def unused(viewport: Viewport, panes: Sequence[Viewport]) -> Viewport | None:
+    """Return what panes that `split` has cut leave over at the end of their last row, or None."""
+    last = panes[-1]
+    left, right = last.x + last.width, viewport.x + viewport.width
+    if right - left < last.width / 2:
+        return None
+    return Viewport(left, last.y, right - left, viewport.y + viewport.height - last.y)
 
 
 def _face(viewport: Viewport, columns: int, rows: int) -> float:

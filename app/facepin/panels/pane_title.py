@@ -199,7 +199,7 @@ def _figures(pane: Pane, appraisal: Appraisal, right: float) -> None:
     In two lines below the title, or beside it as far as `right`, where that is not 0.
     """
     errors = [f"pins {appraisal.pin_error:.2f} %", f"far {appraisal.far_motion:.2f} %"]
-    if pane.solved is not None:
+    if pane.solved is not None and right == 0:
         errors.append(f"{pane.solved.seconds * 1e3:.2f} ms")
     figures = [(text, PICTURE.text) for text in (*errors, f"{appraisal.active} active")]
     if appraisal.out_of_range:

@@ -8,6 +8,7 @@ from facepin.core.pose import Freedom
 from facepin.core.quality import Quality
 from facepin.core.shading import MODES, Shading
 from facepin.panels.guide import Guide
+from facepin.panels.layout import Beside
 from facepin.panels.library_view import LibraryView
 from facepin.panels.pins import FREEDOMS, PinsView
 from facepin.panels.recovery import RecoveryView
@@ -137,6 +138,8 @@ class View:
     """Whether the reference has a pane of its own."""
     reference: PaneView = field(default_factory=PaneView)
     """How that one is shown."""
+    beside: Beside = field(default_factory=Beside)
+    """Which windows have a place beside the picture."""
     chart: bool = False
     """Whether the chart window is open."""
     history: bool = False

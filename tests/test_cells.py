@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from facepin.core.area_vectors import AreaVectors
 from facepin.core.arrays import Floats
-from facepin.core.cells import Cells, area_vectors, make_cells
+from facepin.core.cells import Cells, make_cells
 from facepin.core.rig_builder import build_rig
 
 SQUARES = np.array([[x, y, 0] for y in range(3) for x in range(4)], np.float64)
@@ -24,7 +25,7 @@ def diagonals(cells: Cells) -> list[list[list[int]]]:
 def test_area_vectors_of_a_square_and_of_its_half() -> None:
     points = np.array([[0, 0, 1], [2, 0, 1], [2, 2, 1], [0, 2, 1]], np.float32)
     both = np.array([[[0, 0], [2, 1]], [[1, 0], [3, 2]]])
-    np.testing.assert_array_equal(area_vectors(points, both)[:, :3], [[0, 0, 8], [0, 0, 4]])
+    np.testing.assert_array_equal(AreaVectors(4, both).of(points)[:, :3], [[0, 0, 8], [0, 0, 4]])
 
 
 @pytest.mark.parametrize(
@@ -35,7 +36,7 @@ def test_a_face_is_cut_into_as_few_cells_as_possible(corners: int, quads: int, t
     points = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
     cells = cells_of(points, [range(corners)])
     assert cells.diagonals.shape[2] == quads + triangles
-    areas = area_vectors(points.astype(np.float32), cells.diagonals)[:, :3]
+    areas = AreaVectors(corners, cells.diagonals).of(points.astype(np.float32))[:, :3]
     np.testing.assert_allclose(areas.sum(axis=0), [0, 0, corners * np.sin(2 * np.pi / corners)], atol=1e-6)
 
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from facepin.core import normals as module
+from facepin.core.area_vectors import AreaVectors
 from facepin.core.arrays import Floats, Points
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
@@ -126,10 +126,8 @@ def test_a_small_move_costs_only_its_surroundings(monkeypatch: pytest.MonkeyPatc
     field.normals(rig.evaluate(np.array([0.1, 0.5])))
     field.normals(rig.evaluate(np.array([0.2, 0.5])))  # from now on only one vertex moves
     cells: list[int] = []
-    area_vectors = module.area_vectors
-    monkeypatch.setattr(
-        module, "area_vectors", lambda p, d, out: cells.append(d.shape[2]) or area_vectors(p, d, out)
-    )
+    of = AreaVectors.of
+    monkeypatch.setattr(AreaVectors, "of", lambda self, p: cells.append(len(self.values)) or of(self, p))
     for weight in (0.3, 0.4, 0.5):
         field.normals(rig.evaluate(np.array([weight, 0.5])))
     assert cells == [4, 4, 4]

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from facepin.core.area_vectors import AreaVectors, Numbers
 from facepin.core.arrays import Indices, Points
 from facepin.core.rig import Rig
 from facepin.core.topology import weld_map
@@ -19,20 +19,15 @@ MOST_WELDED = 16
 SLIVER = 0.02
 """Cells below this share of their neighbours' size weigh as if they had it, lest they rule once opened."""
 
-BLOCK = 8192
-"""Cells computed at a time: what comes between their corners and their area vectors stays in near memory."""
-
-Numbers = NDArray[np.intp]
-
 
 @dataclass(frozen=True, eq=False)
 class Cells:
     """m quads and triangles that cover a mesh."""
 
     diagonals: Numbers
-    """(2, 2, m) the two ends of one diagonal of each cell, and of the other; of a triangle, of two sides."""
+    """(2, 2, m), see `AreaVectors`."""
     sums: csr_array
-    """(3 n, 4 m) float32 with int32 indices: turns `area_vectors`, flattened, into flattened normals of any
+    """(3 n, 4 m) float32 with int32 indices: turns `AreaVectors`, flattened, into flattened normals of any
     length, in the neutral the angle-weighted."""
 
 
@@ -45,49 +40,9 @@ def make_cells(rig: Rig) -> Cells:
     pairs, triangles = paired(triangles, rig.neutral)
     quads = np.hstack([quads, pairs])
     diagonals = np.hstack([quads[[0, 2, 1, 3]], triangles[[0, 1, 0, 2]]]).reshape(2, 2, -1)
-    areas = area_vectors(rig.neutral, diagonals)[:, :3].T
+    areas = AreaVectors(rig.vertex_count, diagonals).of(rig.neutral)[:, :3].T
     sums = _corner_weights(rig.neutral, quads, triangles, areas)
     return Cells(diagonals, _for_each_axis(_welded(sums, areas, weld_map(rig))))
-
-
-def area_vectors(points: Points, diagonals: Numbers, out: Points | None = None) -> Points:
-    """Twice the area vectors of cells.
-
-    Parameters
-    ----------
-    points : (n, 3) float32
-    diagonals : (2, 2, m) int
-        See `Cells`.
-    out : (m, 4) float32
-        Where to put them; a new array when None.
-
-    Returns
-    -------
-    (m, 4) float32
-        x, y and z, then a number that means nothing.
-    """
-    areas: Points = np.zeros((diagonals.shape[2], 4), np.float32) if out is None else out
-    # In the order y, z, x, y a cross product is the same formula all along a row of numbers.  And four
-    # numbers are gathered as fast as one, once they pass for a single number of 16 bytes.
-    turned = np.zeros((len(points), 4), np.float32)
-    for place, axis in enumerate((1, 2, 0, 1)):
-        turned[:, place] = points[:, axis]
-    whole = turned.view(np.complex128)[:, 0]
-
-    def side(start: Numbers, end: Numbers) -> Points:
-        # Clipping never happens; asking for it spares numpy a check of every index.
-        vectors = whole.take(end, mode="clip").view(np.float32)
-        vectors -= whole.take(start, mode="clip").view(np.float32)
-        return vectors
-
-    for first in range(0, len(areas), BLOCK):
-        block = slice(first, first + BLOCK)
-        (a, b), (c, d) = diagonals[:, :, block]
-        u, v = side(a, b), side(c, d)
-        cross = areas[block].reshape(-1)[:-1]
-        np.multiply(u[:-1], v[1:], out=cross)
-        cross -= u[1:] * v[:-1]
-    return areas
 
 
 def _cut(corners: Indices, sizes: Indices) -> tuple[Numbers, Numbers]:

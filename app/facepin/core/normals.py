@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from facepin.core.area_vectors import AreaVectors, Numbers
 from facepin.core.arrays import Points
-from facepin.core.cells import Cells, Numbers, area_vectors, make_cells
+from facepin.core.cells import Cells, make_cells
 from facepin.core.rig import Rig
 
 WHOLE = 0.5
@@ -53,7 +54,7 @@ class NormalField:
         """
         if positions is not self._positions:
             moved = positions != self._positions
-            if (moved & self._still).any() or 2 * np.count_nonzero(moved) < self._usual:
+            if np.count_nonzero(moved & self._still) or 2 * np.count_nonzero(moved) < self._usual:
                 self._watch(moved, positions)
             self._compute(positions)
         return self._normals
@@ -73,21 +74,23 @@ class NormalField:
         self._patch = patch
         self._still: Mask = np.repeat(~patch.vertices[:, None], 3, axis=1)
         # What does not move stays as it is here: area vectors, and where all is computed, normals too.
-        self._areas = area_vectors(positions, patch.diagonals)
-        ground = np.array(self._normals).reshape(-1, 3)
+        count = len(positions)
+        values = AreaVectors(count, patch.diagonals).of(positions)
+        self._areas = AreaVectors(count, patch.diagonals[:, :, : patch.moving], values[: patch.moving])
+        self._flat_areas = values.reshape(-1)
+        ground = np.array(self._normals)
         ground[patch.changing] = (0, 0, NOWHERE)
         self._ground = (ground if patch.coordinates is None else ground[patch.changing]).ravel()
 
     def _compute(self, positions: Points) -> None:
-        patch = self._patch
-        area_vectors(positions, patch.moving, out=self._areas[: patch.moving.shape[2]])
-        sums: Points = patch.sums @ self._areas.ravel()
+        self._areas.of(positions)
+        sums: Points = self._patch.sums @ self._flat_areas
         sums += self._ground
-        if patch.coordinates is None:
+        if self._patch.coordinates is None:
             normals = sums
         else:
             normals = self._normals.flatten()
-            normals[patch.coordinates] = sums
+            normals[self._patch.coordinates] = sums
         normals.flags.writeable = False
         self._positions, self._normals = positions, normals.reshape(-1, 3)
 
@@ -100,8 +103,8 @@ class _Patch:
     """(n,) those that may move."""
     diagonals: Numbers
     """Of the cells round all vertices whose normals change, those that move first; see `Cells`."""
-    moving: Numbers
-    """The part of them that is of cells that move."""
+    moving: int
+    """How many of them do."""
     changing: Numbers
     """(r,) vertices whose normals change."""
     coordinates: Numbers | None
@@ -132,7 +135,7 @@ def _make_tables(rig: Rig) -> _Tables:
     cells = make_cells(rig)
     everything = np.arange(rig.vertex_count)
     all_of_them = np.ones(rig.vertex_count, np.bool_)
-    whole = _Patch(all_of_them, cells.diagonals, cells.diagonals, everything, None, cells.sums)
+    whole = _Patch(all_of_them, cells.diagonals, cells.diagonals.shape[2], everything, None, cells.sums)
     # Moves that should happen to cancel each other only make the patch smaller than it might be.
     moved = rig.evaluate(np.ones(rig.shape_count)) != rig.neutral
     movable: Mask = moved[:, 0] | moved[:, 1] | moved[:, 2]
@@ -163,6 +166,5 @@ def _around(cells: Cells, vertices: Mask, touched: Mask) -> _Patch:
     place[chosen] = 4 * np.arange(len(chosen))
     shape = len(coordinates), 4 * len(chosen)
     sums = csr_array((sums.data, place[cell] + axis, sums.indptr), shape=shape)
-    diagonals = np.ascontiguousarray(cells.diagonals[:, :, chosen])
-    moving = diagonals[:, :, : np.count_nonzero(touched)]
-    return _Patch(vertices, diagonals, moving, coordinates[::3] // 3, coordinates, sums)
+    moving = int(np.count_nonzero(touched))
+    return _Patch(vertices, cells.diagonals[:, :, chosen], moving, coordinates[::3] // 3, coordinates, sums)

@@ -67,7 +67,7 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
         [sys.executable, "-m", "facepin", "--solver", "tikhonov"], env=environment, stderr=subprocess.PIPE
     )
     try:
-        window = _wait_for(lambda: hand.do("search", "--name", "^ada - Facepin$"))
+        window = _wait_for(lambda: hand.do("search", "--name", "^ada - Facepin$"), 90.0)
         geometry = dict(
             line.split("=")
             for line in hand.do("getwindowgeometry", "--shell", window.split()[0]).splitlines()

@@ -19,6 +19,7 @@ MOST_WELDED = 16
 SLIVER = 0.02
 """Cells below this share of their neighbours' size weigh as if they had it, lest they rule once opened."""
 
+
 @dataclass(frozen=True, eq=False)
 class Cells:
     """m quads and triangles that cover a mesh."""

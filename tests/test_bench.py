@@ -7,14 +7,18 @@ from io import StringIO
 import moderngl
 import numpy as np
 import pytest
+from rich.console import Console
 
+from facepin.core.deform import Deformer
 from facepin.core.errors import FacepinError
+from facepin.core.normals import NormalField
 from facepin.core.quality import LEVELS
 from facepin.core.rig_builder import build_rig
 from facepin.core.shading import MODES
-from facepin.figures import bench
+from facepin.figures import bench, plain_frame
 from facepin.figures.bench import as_json, as_tables, machine, measure
 from facepin.figures.frame_times import frame_times, frames_as_table
+from facepin.figures.plain_frame import PlainFrame
 from facepin.figures.study.animator import FRAMES, Protocol
 from facepin.gpu.picture import open_context
 from facepin.session.solving import PinSolver, choose
@@ -75,13 +79,31 @@ def test_json_is_the_documented_shape() -> None:
     document = json.loads(json.dumps(as_json(machine(), [row])))
     assert set(document) == {"machine", "rows", "frames"} and "no OpenGL" in document["machine"]
     counts = ["vertices", "edges", "faces", "shapes", "pins"]
-    assert list(document["rows"][0]) == ["rig", *counts, "t_pin", "t_edit", "parts"]
+    assert list(document["rows"][0]) == ["rig", *counts, "t_pin", "t_edit", "parts", "plain"]
     assert list(document["rows"][0]["parts"]) == ["solve", "deform", "normals", "upload", "draw"]
 
 
-def test_the_tables_fit_a_terminal_and_show_the_papers_times() -> None:
-    from rich.console import Console
+def test_the_plain_frame_gives_the_same_face_and_is_measured_in_the_same_run(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rig = sheet(shapes=6)
+    weights = np.random.default_rng(0).uniform(0, 0.1, 6)
+    positions, normals = PlainFrame(rig).compute(weights)
+    np.testing.assert_allclose(positions, Deformer(rig).deform(weights), atol=1e-5)
+    ours = NormalField(rig).normals(positions)
+    ours = ours / np.linalg.norm(ours, axis=1, keepdims=True)
+    assert (ours * normals).sum(axis=1).min() > 0.99
+    row = measure(sheet(), protocol=FEW)
+    assert row.plain is not None and row.plain > 0
+    written = StringIO()
+    Console(width=80, file=written).print(*as_tables("a machine", [row]), sep="\n")
+    shares = [line.split()[-1] for line in written.getvalue().splitlines() if line.split()[:1] == ["sheet"]]
+    assert shares[1] == f"{row.t_edit / row.plain:.2f}"
+    monkeypatch.setattr(plain_frame, "MOST_BYTES", 0)
+    assert measure(sheet(), protocol=FEW).plain is None, "where memory would not do"
 
+
+def test_the_tables_fit_a_terminal_and_show_the_papers_times() -> None:
     row = bench.BenchRow(
         "stand-in for Face 4",
         5692,
@@ -102,8 +124,6 @@ def test_the_tables_fit_a_terminal_and_show_the_papers_times() -> None:
 
 
 def test_every_mode_is_drawn_at_every_level(ctx: moderngl.Context) -> None:
-    from rich.console import Console
-
     times = frame_times(sheet(), ctx, (160, 90))
     assert [(time.mode, time.quality) for time in times] == [
         (mode, quality) for mode in MODES for quality in LEVELS

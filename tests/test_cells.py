@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from facepin.core import area_vectors
 from facepin.core.area_vectors import AreaVectors
 from facepin.core.arrays import Floats
 from facepin.core.cells import Cells, make_cells
@@ -26,6 +27,18 @@ def test_area_vectors_of_a_square_and_of_its_half() -> None:
     points = np.array([[0, 0, 1], [2, 0, 1], [2, 2, 1], [0, 2, 1]], np.float32)
     both = np.array([[[0, 0], [2, 1]], [[1, 0], [3, 2]]])
     np.testing.assert_array_equal(AreaVectors(4, both).of(points)[:, :3], [[0, 0, 8], [0, 0, 4]])
+
+
+@pytest.mark.parametrize("block", [1, 2, 7, 1000])
+def test_area_vectors_of_many_cells_again_and_again(block: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(area_vectors, "BLOCK", block)
+    random = np.random.default_rng(block)
+    diagonals = random.integers(30, size=(2, 2, 50))
+    computed = AreaVectors(30, diagonals)
+    for _ in range(3):
+        points = random.normal(size=(30, 3)).astype(np.float32)
+        (a, b), (c, d) = points[diagonals]
+        np.testing.assert_array_equal(computed.of(points)[:, :3], np.cross(b - a, d - c))
 
 
 @pytest.mark.parametrize(

@@ -119,6 +119,40 @@ def test_weights_changed_in_place_are_noticed() -> None:
     assert np.abs(deformer.deform(weights) - first).max() > 0.01
 
 
+@pytest.mark.parametrize("active", [1, 3, 6, 12, 20])
+def test_answers_of_a_sparse_solver_are_exact(active: int) -> None:
+    rig = mixed_rig()
+    deformer, random = Deformer(rig), np.random.default_rng(active)
+    before = np.zeros(rig.shape_count)
+    for frame in range(300):
+        if frame % 7 == 0:
+            chosen = random.choice(rig.shape_count, active, replace=False)
+        if frame % 100 == 0:
+            before = random.uniform(size=rig.shape_count) * (random.uniform() < 0.7)
+        weights = before.copy()
+        weights[chosen] = random.uniform(size=active)
+        positions = deformer.deform(weights)
+        assert np.abs(positions - exact(rig, weights)).max() <= rounding(rig, weights)
+        assert np.abs(rig.evaluate(weights) - positions).max() <= rounding(rig, weights)
+
+
+def test_a_solver_that_bends_its_way_multiplies_each_shape_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    rig = mixed_rig()
+    deformer, random = Deformer(rig), np.random.default_rng(6)
+    products: list[int] = []
+    product = rig.columns.product
+    monkeypatch.setattr(
+        rig.columns, "product", lambda weights: products.append(np.count_nonzero(weights)) or product(weights)
+    )
+    for _ in range(200):
+        weights = np.zeros(rig.shape_count)
+        weights[random.choice([3, 8, 20, 30, 35, 39], random.integers(1, 6), replace=False)] = (
+            random.uniform()
+        )
+        deformer.deform(weights)
+    assert products == [1] * 6
+
+
 def test_vertices_that_a_gesture_does_not_move_stay_put_to_the_last_bit() -> None:
     rig = mixed_rig()
     deformer = Deformer(rig)

@@ -5,8 +5,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from facepin.core import area_vectors
 from facepin.core.area_vectors import AreaVectors
 from facepin.core.arrays import Floats, Points
+from facepin.core.cells import Cells, make_cells
 from facepin.core.deform import Deformer
 from facepin.core.normals import NormalField
 from facepin.core.rig import Rig
@@ -115,6 +117,64 @@ def test_what_is_computed_in_part_equals_what_is_computed_whole(moving: int) -> 
         weights[chosen] = random.uniform(size=moving)
         positions = deformer.deform(weights)
         np.testing.assert_array_equal(field.normals(positions), NormalField(rig).normals(positions))
+
+
+def computed_whole(cells: Cells, positions: Points) -> Floats:
+    """Normals from plain cross products of all cells, in double precision."""
+    points = positions.astype(np.float64)
+    (a, b), (c, d) = points[cells.diagonals]
+    areas = np.pad(np.cross(b - a, d - c), ((0, 0), (0, 1)))
+    return (cells.sums.astype(np.float64) @ areas.ravel()).reshape(-1, 3)
+
+
+def head_with_still_parts(shapes: int = 10) -> Rig:
+    """A sheet of which shapes move dots, halves or most, with a seam, beside another that none moves."""
+    rig, pairs = split_at_seam(sheet(columns=24, rows=24, shapes=shapes), 11, 24)
+    random = np.random.default_rng(4)
+    deltas = random.normal(0, 0.2, (shapes, rig.vertex_count, 3))
+    x, y, _ = rig.neutral.T
+    for j, delta in enumerate(deltas):
+        near = np.hypot(x - x[37 * j], y - y[37 * j])
+        delta[near > np.quantile(near, (0.01, 0.1, 0.4, 0.9)[j % 4])] = 0
+    deltas[:, pairs[:, 1]] = deltas[:, pairs[:, 0]]
+    neutral = np.vstack([rig.neutral, rig.neutral - np.array([0, 0, 1])])
+    corners = np.concatenate([rig.corners, rig.corners + rig.vertex_count])
+    both = np.concatenate([deltas, np.zeros_like(deltas)], axis=1)
+    named = list(zip(rig.shape_names, both, strict=True))
+    return build_rig("parts", neutral, corners, np.tile(rig.face_sizes, 2), named)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("block", [5, 100, 8192])
+def test_normals_of_a_random_walk_are_those_of_the_whole_face(
+    seed: int, block: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(area_vectors, "BLOCK", block)
+    rig = head_with_still_parts()
+    cells = make_cells(rig)
+    random = np.random.default_rng(seed)
+    fields = [NormalField(rig)]
+    fields.append(fields[0].twin())
+    deformers = [Deformer(rig), Deformer(rig)]
+    weights, gesture = np.zeros(rig.shape_count), [0]
+    for _ in range(100):
+        kind = random.integers(10)
+        weights = weights.copy()
+        if kind == 0:
+            gesture = random.choice(rig.shape_count, random.integers(1, 5), replace=False)
+        elif kind == 1:
+            weights[:] = random.uniform(size=rig.shape_count) * (random.uniform() < 0.5)
+        else:
+            weights[gesture] += random.normal(0, 0.1, len(gesture))
+        pane = random.integers(2)
+        positions = deformers[pane].deform(weights)
+        if kind == 2:  # as no shape does
+            moved = positions.copy()
+            moved[random.integers(rig.vertex_count, size=random.choice([1, 50]))] += 0.3
+            positions = moved
+        normals = fields[pane].normals(positions)
+        np.testing.assert_array_equal(normals, NormalField(rig).normals(positions))
+        np.testing.assert_allclose(normals, computed_whole(cells, positions), atol=2e-4)
 
 
 def test_a_small_move_costs_only_its_surroundings(monkeypatch: pytest.MonkeyPatch) -> None:

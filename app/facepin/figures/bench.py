@@ -25,6 +25,7 @@ from facepin.core.rig import Rig
 from facepin.core.topology import edge_count
 from facepin.figures.compare import context_or_word, progress_line
 from facepin.figures.frame_times import FrameTime, frame_times, frames_as_json, frames_as_table
+from facepin.figures.plain_frame import PlainFrame
 from facepin.figures.stand_ins import TABLE_1, stand_in, stand_in_name
 from facepin.figures.study.animator import PULL, Protocol, make_task
 from facepin.files import open_rig
@@ -40,6 +41,8 @@ SIZE = (1280, 720)
 """Pixels of the picture that is drawn."""
 SOLVER = "transpose"
 """The paper's own."""
+PLAIN_EVERY = 5
+"""Drag frames after which the plain one is measured too: seldom enough to leave the memory to the others."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,8 @@ class BenchRow:
     t_edit: float
     """Median over the drag frames of solve + deform + normals + upload (as far as there is OpenGL)."""
     parts: Parts
+    plain: float | None = None
+    """Median of `PlainFrame` in the same run, for some of the poses; None where B is too large for it."""
 
 
 def add_options(parser: ArgumentParser) -> None:
@@ -143,6 +148,8 @@ def measure(
     pins: tuple[Pin, ...] = ()
     presses: list[float] = []
     frames: list[list[float]] = []
+    plain = PlainFrame(rig) if PlainFrame.fits(rig) else None
+    plain_frames: list[float] = []
     for vertex, tremor in zip(task.vertices, task.tremor, strict=True):
         x, y, _ = camera.project(positions[vertex], viewport)[0]
         start, goal = weights, positions[vertex].astype(np.float64)
@@ -156,6 +163,10 @@ def measure(
             pins = (*held, Pin(vertex, as_vector(goal)))
             weights, positions, times = pane.frame(pins, start)
             frames.append(times)
+            if plain is not None and len(frames) % PLAIN_EVERY == 0:
+                began = perf_counter()
+                plain.compute(weights)
+                plain_frames.append(perf_counter() - began)
     pane.release()
     parts = [float(time) for time in np.median(frames, axis=0)]
     return BenchRow(
@@ -168,6 +179,7 @@ def measure(
         float(np.median(presses)),
         float(np.median(np.sum(np.array(frames)[:, :4], axis=1))),
         Parts(*parts, *[None] * (5 - len(parts))),
+        float(np.median(plain_frames)) if plain_frames else None,
     )
 
 
@@ -193,7 +205,7 @@ def as_json(machine_line: str, rows: Sequence[BenchRow], frames: Sequence[FrameT
 
 
 def as_tables(machine_line: str, rows: Sequence[BenchRow]) -> "list[Table]":
-    """Return what the terminal shows: the sizes, and the times with the paper's beside ours."""
+    """Return what the terminal shows: sizes, T_edit beside plain numpy, and times beside the paper's."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -205,6 +217,11 @@ def as_tables(machine_line: str, rows: Sequence[BenchRow]) -> "list[Table]":
         return made
 
     sizes = table("What is measured", "", ["vertices", "edges", "faces", "shapes", "pins"])
+    plain = table(
+        "A drag frame beside plain numpy, in milliseconds (medians)",
+        "plain: B w as one dense product, normals of all triangles, nothing else.",
+        ["T_edit", "plain", "share"],
+    )
     times = table(
         "A press and a drag frame, in milliseconds (medians)",
         "T_edit is solve + deform + normals + upload.  paper: Cetinaslan, Lewis and Orvalho 2017, Table 1, "
@@ -214,11 +231,13 @@ def as_tables(machine_line: str, rows: Sequence[BenchRow]) -> "list[Table]":
     paper = {stand_in_name(row): row for row in TABLE_1}
     for row in rows:
         sizes.add_row(row.rig, *map(str, (row.vertices, row.edges, row.faces, row.shapes, row.pins)))
+        share = "-" if row.plain is None else f"{row.t_edit / row.plain:.2f}"
+        plain.add_row(row.rig, _milliseconds(row.t_edit), _milliseconds(row.plain), share)
         theirs = paper.get(row.rig)
         pin, edit = (theirs.t_pin, theirs.t_edit) if theirs else (None, None)
         parts = asdict(row.parts).values()
         times.add_row(row.rig, *map(_milliseconds, (row.t_pin, pin, row.t_edit, edit, *parts)))
-    return [sizes, times]
+    return [sizes, plain, times]
 
 
 def _milliseconds(seconds: float | None) -> str:

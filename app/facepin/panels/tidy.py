@@ -60,7 +60,7 @@ def tidy_card(
         was, now = active(tidied.before), active(tidied.after)
         same = np.array_equal(tidied.before, tidied.after)
         imgui.text(f"{was} shapes in use" if same else f"{was} shapes become {now}")
-        what = ("the pin" if tidied.pins == 1 else f"all {tidied.pins} pins") if tidied.pins else "the face"
+        what = {0: "the face", 1: "the pin", 2: "both pins"}.get(tidied.pins, f"all {tidied.pins} pins")
         if same:
             dim_sentence(f"No fewer shapes keep {what} within {tolerance:.2g} %.")
         else:

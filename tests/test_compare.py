@@ -173,7 +173,7 @@ def test_panes_show_pose_pins_and_measures() -> None:
         bare = painter.paint(comparison.answers[0].positions)
         painter.release()
     assert (start.title, start.subtitle) == ("Start", "3 pins and their goals")
-    assert (solved.title, solved.subtitle) == (SOLVERS["tikhonov"].title, "α 0.001")
+    assert (solved.title, solved.subtitle) == ("Smoothed (Tikhonov)", "α 0.001")
     assert solved.image.shape == (SIZE[1], SIZE[0], 4)
     changed = np.abs(solved.image.astype(int) - bare).max(axis=2) > 60
     where = painter.camera.project(comparison.answers[0].positions[list(VERTICES)], _whole())[:, :2]

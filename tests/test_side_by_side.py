@@ -222,6 +222,18 @@ def test_names_fit_and_the_largest_have_them_first() -> None:
     assert names_that_fit(np.zeros(0), 2.0) == []
 
 
+@pytest.mark.parametrize("key", ["tikhonov", "hybrid"])
+def test_between_panes_it_is_dark_in_the_light_theme(key: str, app: App) -> None:
+    app.ask(Choose("theme_name", "light"))
+    app.ask(AddPane(choose(key)))
+    app.ask(Command.SHOW_REFERENCE)
+    settled(app)
+    whole = app.frame.viewport
+    row = app.screenshot()[round(whole.y + whole.height / 3), : round(whole.x + whole.width), :].max(axis=1)
+    gaps = {round(place.x) - step for place in app.frame.viewports if place.x > whole.x for step in (1, 2)}
+    assert gaps and row[sorted(gaps)].max() < 40
+
+
 @pytest.mark.parametrize("theme", ["dark", "light"])
 def test_many_shapes_and_long_names_make_a_chart(theme: str, app: App) -> None:
     app.ask(Choose("theme_name", theme))

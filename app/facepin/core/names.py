@@ -74,6 +74,7 @@ def brief(title: str) -> str:
     return title.partition(" (")[0]
 
 
-def bracketed(title: str) -> str:
-    """Return what a title says in brackets at its end; empty where it has none."""
-    return title.partition(" (")[2].removesuffix(")")
+def without_author(title: str) -> str:
+    """Return a title without whose work it is: "A (b, Name 2017)" is "A (b)"."""
+    kept, comma, _ = title.partition(",")
+    return kept + ")" * bool(comma)

@@ -61,7 +61,7 @@ def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]
     rows = strongest([each.weights for each in series], MOST_SLIDERS)
     low, high = _slider_reach(limits, series)
     # Places in inches: what has to line up in every row is too much for an automatic layout.
-    name_width, bar_width, number_width, top, bottom = 1.45, 1.25, 0.65, 0.45, 0.75
+    name_width, bar_width, number_width, top, bottom = 1.45, 1.25, 0.65, 0.6, 0.75
     width = name_width + len(series) * (bar_width + number_width)
     inner = 0.2 * max(len(rows), 1)
     height = top + inner + bottom
@@ -124,7 +124,7 @@ def _sliders(
             fontweight="bold" if outside else "normal",
             annotation_clip=False,
         )
-    panel.set_title(series.title, color=series.ink.colour)
+    panel.set_title(series.title.replace(" (", "\n("), color=series.ink.colour)
 
 
 def _weight(weight: float) -> str:
@@ -197,7 +197,7 @@ def error_charts(
         top = marks.get_ylim()[1]
         marks.set_ylim(-0.03 * min(top, STRETCH), top)
         figure.legend(
-            loc="outside upper left", ncols=min(len(series), max(int(_width(k) / 2.3), 1)), fontsize=8.5
+            loc="outside upper left", ncols=min(len(series), max(int(_width(k) / 3.2), 1)), fontsize=8.5
         )
         lines.set_xlim(-0.8, k - 0.2)
         _name_shapes(lines, names, errors)

@@ -9,6 +9,7 @@ from typing import Any
 
 from facepin.core import measures
 from facepin.core.arrays import Floats, Points
+from facepin.core.names import without_author
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.session.solving import PinSolver, Solved, SolverChoice
@@ -51,8 +52,8 @@ class Answer:
 
     @property
     def title(self) -> str:
-        """The solver's name."""
-        return self.choice.kind.title
+        """What the solver does and what it is called."""
+        return without_author(self.choice.kind.title)
 
     @property
     def settings_line(self) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from facepin.core.errors import FacepinError
 from facepin.core.measures import e_rms
+from facepin.core.names import without_author
 from facepin.figures.chart_style import number, write_chart
 from facepin.figures.charts import Series, error_charts, slider_panels, weight_bars
 from facepin.files.atomic import atomic_write
@@ -28,14 +29,16 @@ def write_session_charts(session: Session, folder: Path) -> None:
     for at, pane in enumerate(session.panes, 1):
         remark = "" if reference is None else f"$E_{{RMS}}$ {number(e_rms(pane.pose.weights, reference))}"
         ink = INKS[pane.choice.kind.key]
-        series.append(Series(f"{at} {pane.choice.kind.title}", ink, pane.pose.weights, remark))
+        title = f"{at} {without_author(pane.choice.kind.title)}"
+        series.append(Series(title, ink, pane.pose.weights, remark))
     everything = series if reference is None else [Series("Reference", REFERENCE, reference), *series]
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FacepinError(f"{folder}: cannot be made: {error.strerror}") from error
+    pins = len(session.pose.pins)
     note = (
-        f"{rig.name}: {rig.vertex_count:,} vertices, {rig.shape_count} shapes; {len(session.pose.pins)} pins"
+        f"{rig.name}: {rig.vertex_count:,} vertices, {rig.shape_count} shapes; {pins} pin{'s'[: pins != 1]}"
     )
     write_chart(folder, "sliders", slider_panels(rig.shape_names, session.control.limits, everything, note))
     write_chart(folder, "weights", weight_bars(rig.shape_names, session.control.limits, everything, note))
@@ -44,6 +47,7 @@ def write_session_charts(session: Session, folder: Path) -> None:
     table = StringIO()
     rows = np.stack([each.weights for each in everything], axis=1).tolist()
     writer = csv.writer(table, lineterminator="\n")
-    writer.writerow(["shape", *(each.title for each in everything)])
+    keys = [f"{at} {pane.choice.kind.key}" for at, pane in enumerate(session.panes, 1)]
+    writer.writerow(["shape", *["reference"] * (reference is not None), *keys])
     writer.writerows([name, *row] for name, row in zip(rig.shape_names, rows, strict=True))
     atomic_write(folder / "weights.csv", table.getvalue().encode())

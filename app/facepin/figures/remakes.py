@@ -112,7 +112,7 @@ def target_pose(studio: Studio) -> Remake:
     start = _neutral(rig, dragged(rig, most_moved_in_sight(rig, wanted, PINS), wanted))
     keys = ("transpose", "pseudo_inverse", "tikhonov", "sparse")
     comparison = compare(rig, [choose(key) for key in keys], start, meant)
-    errors = _listed(f"{number(answer.e_rms or 0.0)} ({answer.title})" for answer in comparison.answers)
+    errors = _listed(f"{number(answer.e_rms or 0.0)} ({answer.key})" for answer in comparison.answers)
     return _remade(
         studio,
         "figure-4-6",
@@ -333,9 +333,7 @@ def _remade(
 
 def _sentence(comparison: Comparison) -> str:
     """Say how far each solver moves what should rest."""
-    found = _listed(
-        f"{share(comparison, answer.far_motion)} ({answer.title})" for answer in comparison.answers
-    )
+    found = _listed(f"{share(comparison, answer.far_motion)} ({answer.key})" for answer in comparison.answers)
     meant = comparison.reference is not None
     return (
         f"What {'the expression leaves at rest' if meant else 'is far from the pin'} moves by up to {found}."

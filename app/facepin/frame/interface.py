@@ -290,7 +290,7 @@ def over_picture(
         return []
     asked: list[Request] = []
     if len(viewports) > 1:
-        _seams(viewport, viewports, pixel_ratio, scale)
+        _seams(viewport, viewports, pixel_ratio)
         colours = pane_colours(PICTURE, [pane.choice.kind.key for pane in session.panes])
         for at, (pane, place) in enumerate(zip(session.panes, viewports, strict=False)):
             asked += pane_title(
@@ -325,23 +325,21 @@ def over_picture(
     return asked
 
 
-def _seams(viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float, scale: float) -> None:
-    """Draw what is between panes, or left over by them, as dark as what is beside them in any theme."""
+def _seams(viewport: Viewport, viewports: Sequence[Viewport], pixel_ratio: float) -> None:
+    """Fill what is between panes, or left over by them, as dark as what is beside them in any theme."""
 
     def corner(x: float, y: float) -> imgui.ImVec2:
         return imgui.ImVec2(x / pixel_ratio, y / pixel_ratio)
 
-    draw = imgui.get_background_draw_list()
-    right, bottom = viewport.x + viewport.width, viewport.y + viewport.height
-    draw.push_clip_rect(corner(viewport.x, viewport.y), corner(right, bottom), False)
+    draw, ink = imgui.get_background_draw_list(), packed(PICTURE.bar)
     for at in viewports:
-        half = 1.5 * scale * pixel_ratio
-        upper = corner(at.x - half, at.y - half)
-        lower = corner(at.x + at.width + half, at.y + at.height + half)
-        draw.add_rect(upper, lower, packed(PICTURE.bar), 0.0, thickness=3 * scale)
-    if (rest := layout.unused(viewport, viewports)) is not None:
-        draw.add_rect_filled(corner(rest.x, rest.y), corner(right, bottom), packed(PICTURE.bar))
-    draw.pop_clip_rect()
+        right, bottom = at.x + at.width, at.y + at.height
+        in_row = [other.x for other in viewports if other.y == at.y and other.x >= right]
+        below = [other.y for other in viewports if other.y >= bottom]
+        end_x = min(in_row, default=viewport.x + viewport.width)
+        end_y = min(below, default=viewport.y + viewport.height)
+        draw.add_rect_filled(corner(right, at.y), corner(end_x, end_y), ink)
+        draw.add_rect_filled(corner(at.x, bottom), corner(right, end_y), ink)
 
 
 def _first_steps(desk: Desk, session: Session, viewport: Viewport, pixel_ratio: float, scale: float) -> None:

@@ -6,6 +6,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from facepin.core.names import without_author
 from facepin.figures.chart_style import write_chart
 from facepin.figures.compare import context_or_word, made_folder
 from facepin.figures.study.drag_study import DragRow, DragStudy
@@ -143,7 +144,8 @@ def summary_chart(studies: Sequence[DragStudy]) -> "Figure":
     lines = [(study, row) for study in studies for row in study.rows]
     several = len(studies) > 1
     labels = [
-        f"{study.rig.name + ': ' if several else ''}{row.choice.kind.title}, {row.freedom}, {row.size:g} %"
+        f"{study.rig.name + ': ' if several else ''}{without_author(row.choice.kind.title)}, "
+        f"{row.freedom}, {row.size:g} %"
         for study, row in lines
     ]
     panels = [

@@ -10,6 +10,7 @@ from facepin.core.arrays import Floats
 from facepin.core.camera import Viewport
 from facepin.core.heat import heat_colours
 from facepin.core.measures import moves
+from facepin.core.names import without_author
 from facepin.core.rig import Rig
 from facepin.figures.pictures import Painter
 from facepin.figures.study.drag_study import DragRow, DragStudy
@@ -66,7 +67,7 @@ def write_maps(folder: Path, studies: Sequence[DragStudy], ctx: "moderngl.Contex
 
 
 def _panes(study: DragStudy, row: DragRow, painter: Painter, blend: Floats) -> list[Pane]:
-    title, colour = row.choice.kind.title, INKS[row.choice.kind.key].colour
+    title, colour = without_author(row.choice.kind.title), INKS[row.choice.kind.key].colour
     figures = row.figures
     lag = f"median {figures.lag_median_percent:.0f} %, p90 {figures.lag_p90_percent:.0f} %"
     usual, most = 100 * median(row.far.ravel()), 100 * p90(row.far.ravel())

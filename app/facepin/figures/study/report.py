@@ -5,6 +5,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from facepin.core.names import without_author
 from facepin.figures.chart_style import write_chart
 from facepin.figures.compare import made_folder
 from facepin.figures.study.animator import FRAMES, drawable
@@ -120,7 +121,7 @@ def write_study(folder: Path, studies: Sequence[Study]) -> list[Path]:
 def summary_chart(studies: Sequence[Study]) -> "Figure":
     """Draw what matters most, a panel for each measure; further left is better."""
     lines = [(study.rig.name, row) for study in studies for row in study.rows]
-    labels = [f"{row.choice.kind.title}, {row.freedom}" for _, row in lines]
+    labels = [f"{without_author(row.choice.kind.title)}, {row.freedom}" for _, row in lines]
     if len(studies) > 1:
         labels = [f"{rig}: {label}" for label, (rig, _) in zip(labels, lines, strict=True)]
     panels = []

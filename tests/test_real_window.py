@@ -15,6 +15,7 @@ import pytest
 
 from driver import running
 from facepin.core.events import Stirred
+from facepin.panels.commands import Command
 from facepin.window import Window
 
 
@@ -109,18 +110,20 @@ def test_press_drag_undo_save_in_a_real_window(screen: str, tmp_path: Path) -> N
 
 def _save(hand: Hand, path: Path) -> dict[str, Any]:
     """Save the scene under a typed path, and read it."""
-    for pause in (0.6, 2.0, 5.0):  # a busy machine may take a while to ask for the path
+    asking = f"^{Command.SAVE_AS.title.rstrip('…')} - Facepin$"
+    for _ in range(5):
         hand.do("key", "ctrl+shift+s")
-        time.sleep(pause)
-        hand.do("key", "ctrl+a")
+        # Until the line for the path listens, what is typed would be commands.
+        assert _wait_for(lambda: hand.do("search", "--name", asking)), "nobody asked for a path"
+        time.sleep(0.5)  # it takes its first keys a frame later
+        hand.do("key", "--repeat", 2, "--repeat-delay", 100, "ctrl+a")
         hand.do("type", "--delay", 8, str(path))
         hand.do("key", "Return")
-        if _wait_for(lambda: "there" if path.exists() else "", 8 * pause):
-            # Until its title says so, the window may still take keys for the path.
-            _wait_for(lambda: hand.do("search", "--name", f"^{path.name} - "))
-            time.sleep(0.3)
+        if _wait_for(lambda: hand.do("search", "--name", f"^{path.name} - "), 6.0):
             return json.loads(path.read_text())
+        # A key was lost on the way, as happens on a busy machine.
         hand.do("key", "Escape")
+        assert _wait_for(lambda: "" if hand.do("search", "--name", asking) else "gone"), "Esc was not heard"
     raise AssertionError(f"{path.name} was not saved")
 
 

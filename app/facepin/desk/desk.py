@@ -134,7 +134,12 @@ class Desk:
 
     @property
     def title(self) -> str:
-        """What the title bar says: the scene's file, a star while unsaved, the rig, the program."""
+        """What the title bar says: the scene's file, a star while unsaved, the rig, the program.
+
+        While a path is being typed, what it is for.
+        """
+        if self.dialog is not None and self.dialog.listens:
+            return f"{self.dialog.title} - Facepin"
         if self.session is None:
             return "Facepin"
         star = "" if self.keeper.is_saved(self.session) else "*"

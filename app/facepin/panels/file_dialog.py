@@ -42,8 +42,10 @@ class FileDialog:
         self.finished = False
         self.path: Path | None = None
         """The answer once finished; None when the user gave up."""
+        self.title = title
+        self.listens = False
+        """Whether what is typed goes into its line."""
         self._kind = kind
-        self._title = title
         self._typed = str(start)
         self._suffix = start.suffix
         self._remark = "Type a path and press Enter."
@@ -86,7 +88,7 @@ class FileDialog:
         flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_saved_settings
         if not imgui.begin_popup_modal("##path", None, flags | imgui.WindowFlags_.no_docking)[0]:
             return
-        imgui.text(self._title)
+        imgui.text(self.title)
         if self._fresh:
             imgui.set_keyboard_focus_here()
             self._fresh = False
@@ -94,6 +96,7 @@ class FileDialog:
         entered, self._typed = imgui.input_text(
             "##typed", self._typed, imgui.InputTextFlags_.enter_returns_true
         )
+        self.listens = imgui.is_item_active()
         imgui.align_text_to_frame_padding()
         room = imgui.get_content_region_avail().x - 13 * imgui.get_font_size()
         imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + max(room, 8 * imgui.get_font_size()))

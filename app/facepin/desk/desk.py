@@ -136,16 +136,15 @@ class Desk:
     def title(self) -> str:
         """What the title bar says: the scene's file, a star while unsaved, the rig, the program.
 
-        While a path is being typed, what it is for.
+        Before it, while a path is being typed, what that is for.
         """
-        if self.dialog is not None and self.dialog.listens:
-            return f"{self.dialog.title} - Facepin"
+        asked = f"{self.dialog.title} - " if self.dialog is not None and self.dialog.listens else ""
         if self.session is None:
-            return "Facepin"
+            return f"{asked}Facepin"
         star = "" if self.keeper.is_saved(self.session) else "*"
         if self.keeper.file is None:
-            return f"{self.session.rig.name}{star} - Facepin"
-        return f"{self.keeper.file.name}{star} - {self.session.rig.name} - Facepin"
+            return f"{asked}{self.session.rig.name}{star} - Facepin"
+        return f"{asked}{self.keeper.file.name}{star} - {self.session.rig.name} - Facepin"
 
     @property
     def dialog(self) -> FileDialog | None:

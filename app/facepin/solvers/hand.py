@@ -113,9 +113,10 @@ class _Hand:
             self._start, self._springs = start, self._priced(start)
         wanted = (displacement - self._system.rows @ start) * self._unscale
         pull = self._pull(wanted)
+        allowed = self._rest.allowed(wanted, self._in_hand)
         springs, share = self._directed(pull, wanted)
         wanted = np.where(self._in_hand, share * wanted, wanted)
-        found, held_back, steps = self._balanced(wanted, springs, pull, start)
+        found, held_back, steps = self._balanced(wanted, springs, pull, start, allowed)
         self._forces = found.forces[: len(wanted)]
         weights = start + found.change
         for tied, other in self._system.ties:
@@ -168,12 +169,12 @@ class _Hand:
         return springs, min(1.0, reached / asked) if asked > 0 else 1.0
 
     def _balanced(
-        self, wanted: Floats, springs: Springs, pull: Floats, start: Floats
+        self, wanted: Floats, springs: Springs, pull: Floats, start: Floats, allowed: float
     ) -> tuple[Balance, float, int]:
         """Find the balance, with what should not go along pulling back where it would."""
         count, slack = len(wanted), SLACK * self._grasp.height
         rest, ties = self._rest, self._ties
-        share, allowed = rest.share(pull, self._rows), rest.allowed(wanted, self._in_hand)
+        share = rest.share(pull, self._rows)
         rows = np.concatenate([self._rows, ties.rows])
         goals = np.concatenate([wanted, ties.room(start)])
         forces = np.concatenate([self._forces, np.zeros(len(ties.rows))])

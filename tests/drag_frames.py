@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from driver import App, running
-from facepin.panels.guide import STEPS, Guide
+from facepin.panels.help.guide import STEPS, Guide
+from support.driver import App, running
 
 GESTURES = {
     "jaw": (("jawOpen",), (0.0, 30.0)),

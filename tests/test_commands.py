@@ -14,13 +14,13 @@ from scipy.optimize import lsq_linear
 
 from facepin.__main__ import main
 from facepin.core.errors import FacepinError
+from facepin.core.look.shading import MODES
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import build_rig
-from facepin.core.shading import MODES
 from facepin.files import open_rig, write_model
-from facepin.session.solving import PinSolver, Solved
+from facepin.session.solving.solving import PinSolver, Solved
 from facepin.solvers import SOLVERS
-from small_rigs import sheet
+from support.small_rigs import sheet
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).resolve().parent.parent / "app/facepin"
+PACKAGE = Path(__file__).resolve().parents[1] / "app/facepin"
 
 LAYERS: list[set[str]] = [
     {"__main__"},

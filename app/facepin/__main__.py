@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NoReturn
 from facepin import __version__
 from facepin.commands import COMMANDS
 from facepin.core.errors import FacepinError
-from facepin.files.scene_file import SUFFIX
+from facepin.files.work.scene_file import SUFFIX
 from facepin.options import first_pose, rig_path, solver_choices
 from facepin.resources import BUILTIN, builtin_faces
 
@@ -107,7 +107,7 @@ def _window(options: Namespace) -> None:
         raise FacepinError(f"{options.rig.name} is a scene, which has its own --{' and --'.join(own)}")
     from platformdirs import user_config_path, user_pictures_path
 
-    from facepin.files.preferences import read_preferences
+    from facepin.files.work.preferences import read_preferences
     from facepin.session.session import MOST_PANES
     from facepin.solvers import SOLVERS
 

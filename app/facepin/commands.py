@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from facepin.core.errors import FacepinError
-from facepin.core.shading import MODES
+from facepin.core.look.shading import MODES
 from facepin.options import (
     VIEWS,
     add_rig,
@@ -41,7 +41,7 @@ def _info_options(parser: ArgumentParser) -> None:
 
 
 def _info(options: Namespace) -> None:
-    from facepin.core.topology import edge_count
+    from facepin.core.mesh.topology import edge_count
 
     rig = open_with_bar(options.rig, options.neutral)
     deltas = rig.deltas
@@ -105,11 +105,11 @@ def _render_options(parser: ArgumentParser) -> None:
 
 
 def _render(options: Namespace) -> None:
-    from facepin.core.camera import Camera, frame_points
-    from facepin.core.heat import heat_scale
-    from facepin.core.measures import moves
-    from facepin.core.normals import NormalField
-    from facepin.files.atomic import atomic_write
+    from facepin.core.look.camera import Camera, frame_points
+    from facepin.core.look.heat import heat_scale
+    from facepin.core.mesh.normals import NormalField
+    from facepin.core.shapes.measures import moves
+    from facepin.files.safely.atomic import atomic_write
     from facepin.gpu.markers import pin_markers
     from facepin.gpu.picture import open_context, png_bytes, render_picture
 
@@ -193,25 +193,25 @@ def _study(options: Namespace) -> None:
 
 
 def _bench_options(parser: ArgumentParser) -> None:
-    from facepin.figures import bench
+    from facepin.figures.bench import command as bench
 
     bench.add_options(parser)
 
 
 def _bench(options: Namespace) -> None:
-    from facepin.figures import bench
+    from facepin.figures.bench import command as bench
 
     bench.run(options)
 
 
 def _figures_options(parser: ArgumentParser) -> None:
-    from facepin.figures import paper
+    from facepin.figures.paper import command as paper
 
     paper.add_options(parser)
 
 
 def _figures(options: Namespace) -> None:
-    from facepin.figures import paper
+    from facepin.figures.paper import command as paper
 
     print(paper.run(options))
 

@@ -8,13 +8,13 @@ from time import perf_counter
 from imgui_bundle import imgui
 
 from facepin.actions import carry_out
-from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested
+from facepin.core.look.camera import Viewport
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk.desk import ChartWriter, Desk
-from facepin.files.preferences import Preferences, read_preferences, write_preferences
+from facepin.files.work.preferences import Preferences, read_preferences, write_preferences
 from facepin.frame import interface
 from facepin.frame.layout_file import LayoutFile
 from facepin.frame.painting import Painting
@@ -26,7 +26,7 @@ from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.panels.weights.listing import ARRANGEMENTS
 from facepin.resources import BUILTIN, resource
-from facepin.session.solving import SolverChoice
+from facepin.session.solving.solving import SolverChoice
 from facepin.window import Window
 
 IDLE_WAIT = 0.5

@@ -4,12 +4,12 @@ import sys
 from argparse import ArgumentParser, ArgumentTypeError
 from pathlib import Path
 
-from facepin.core.camera import View
 from facepin.core.errors import FacepinError
+from facepin.core.look.camera import View
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
 from facepin.resources import BUILTIN, builtin_faces, resource
-from facepin.session.solving import SolverChoice, choose
+from facepin.session.solving.solving import SolverChoice, choose
 from facepin.solvers import SOLVERS
 from facepin.solvers.settings import parse_settings
 
@@ -60,8 +60,8 @@ def solver_choices(keys: str, settings: list[str], keep_limits: bool) -> list[So
 
 def first_pose(rig: Rig, pose: Path | None, pins: Path | None) -> Pose:
     """Return the pose that files ask for: weights from a pose file, pins from a pins file."""
-    from facepin.files.pins_file import read_pins
-    from facepin.files.pose_file import read_pose
+    from facepin.files.work.pins_file import read_pins
+    from facepin.files.work.pose_file import read_pose
 
     start = rest_pose(rig)
     if pose is not None:

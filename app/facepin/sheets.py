@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats
-from facepin.files.atomic import atomic_write
+from facepin.files.safely.atomic import atomic_write
 from facepin.resources import resource
 
 if TYPE_CHECKING:

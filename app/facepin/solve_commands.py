@@ -9,13 +9,13 @@ import numpy as np
 
 from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
-from facepin.core.measures import active, moves, out_of_range, percent
 from facepin.core.pose import Pose
-from facepin.files.pins_file import held_vertices
-from facepin.files.pose_file import check_suffix, write_pose
+from facepin.core.shapes.measures import active, moves, out_of_range, percent
+from facepin.files.work.pins_file import held_vertices
+from facepin.files.work.pose_file import check_suffix, write_pose
 from facepin.options import add_rig, add_solver, first_pose, open_with_bar, output_path, solver_choices
-from facepin.session.solving import PinSolver, snapped
-from facepin.session.tidying import TOLERANCE, tidied
+from facepin.session.solving.solving import PinSolver, snapped
+from facepin.session.solving.tidying import TOLERANCE, tidied
 from facepin.solvers.settings import plain_settings
 
 

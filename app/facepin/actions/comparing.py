@@ -8,7 +8,7 @@ from facepin.actions.files import POSES
 from facepin.core.errors import FacepinError
 from facepin.desk.desk import Desk
 from facepin.desk.papers import free_name
-from facepin.files.pose_file import read_pose
+from facepin.files.work.pose_file import read_pose
 from facepin.panels.commands import Command
 from facepin.panels.requests import (
     AddPane,

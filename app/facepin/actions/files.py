@@ -7,7 +7,7 @@ from facepin.core.quality import LEVELS, level
 from facepin.desk.desk import Desk
 from facepin.desk.papers import save_picture
 from facepin.files.formats import write_model
-from facepin.files.pose_file import read_pose, write_pose
+from facepin.files.work.pose_file import read_pose, write_pose
 from facepin.panels.commands import Command
 from facepin.panels.file_dialog import Kind
 from facepin.panels.requests import CancelLoading, OpenPath, Request

@@ -6,8 +6,8 @@ from facepin.actions.files import FACES
 from facepin.core.errors import FacepinError
 from facepin.desk.desk import Desk
 from facepin.desk.opening import Lost
-from facepin.files.drafts import Leftover
-from facepin.files.scene_file import SUFFIX
+from facepin.files.work.drafts import Leftover
+from facepin.files.work.scene_file import SUFFIX
 from facepin.panels.commands import Command
 from facepin.panels.requests import DiscardWork, OpenPath, Request, RestoreWork
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from facepin.core.pose import Pin, as_vector
 from facepin.desk.desk import Desk
-from facepin.files.landmarks_file import SUFFIX, read_landmarks, write_landmarks
+from facepin.files.work.landmarks_file import SUFFIX, read_landmarks, write_landmarks
 from facepin.panels.commands import Command
 from facepin.panels.requests import OpenPath, Request
 from facepin.session.edit import Edit

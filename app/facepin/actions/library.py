@@ -4,14 +4,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from facepin.core.errors import FacepinError
-from facepin.core.measures import out_of_range
 from facepin.core.names import clean_name
 from facepin.core.saved_pose import SavedPose
+from facepin.core.shapes.measures import out_of_range
 from facepin.desk.desk import Desk
 from facepin.desk.library import Library
-from facepin.files.pose_library import replaced
+from facepin.files.work.pose_library import replaced
 from facepin.panels.commands import Command
-from facepin.panels.library_requests import (
+from facepin.panels.library.requests import (
     ApplyPose,
     ComparePoses,
     LabelPose,

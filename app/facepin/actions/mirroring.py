@@ -1,12 +1,12 @@
 """Left and right."""
 
-from facepin.core.mirror import Mirror
 from facepin.core.names import listed
+from facepin.core.shapes.mirror import Mirror
 from facepin.desk.desk import Desk
 from facepin.panels.commands import Command
 from facepin.panels.requests import PairShapes, Request
 from facepin.session.edit import Edit
-from facepin.session.mirroring import Way, flipped_pose, mirrored_weights
+from facepin.session.hand.mirroring import Way, flipped_pose, mirrored_weights
 from facepin.session.session import Session
 
 

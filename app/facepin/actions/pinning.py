@@ -4,14 +4,14 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from facepin.core.errors import FacepinError
-from facepin.core.places import titles
 from facepin.core.pose import Pin, with_changed
+from facepin.core.shapes.places import titles
 from facepin.desk.desk import Desk
 from facepin.panels.commands import Command
 from facepin.panels.requests import NamePin, RemovePins, Request, SelectPins, SetPins
 from facepin.session.edit import Edit
-from facepin.session.mirroring import twins_of
-from facepin.session.moving import amount
+from facepin.session.hand.mirroring import twins_of
+from facepin.session.hand.moving import amount
 from facepin.session.session import Session
 
 

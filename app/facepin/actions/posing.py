@@ -11,9 +11,9 @@ from facepin.panels.requests import (
     TakeTidy,
     Tidy,
 )
-from facepin.panels.tidy import LABEL
+from facepin.panels.solving.tidy import LABEL
 from facepin.session.edit import Edit
-from facepin.session.tidying import TOLERANCE, tidied
+from facepin.session.solving.tidying import TOLERANCE, tidied
 
 
 def act(request: Request, desk: Desk) -> bool:

@@ -6,14 +6,14 @@ from math import pi
 from pathlib import Path
 
 from facepin.core.errors import FacepinError
-from facepin.core.face_view import face_camera
+from facepin.core.look.face_view import face_camera
 from facepin.core.pose import Pose
 from facepin.core.saved_pose import SavedPose
 from facepin.desk.desk import Desk
 from facepin.desk.papers import free_name
 from facepin.desk.stage import Stage
 from facepin.files.animation import write_animation
-from facepin.files.atomic import atomic_write
+from facepin.files.safely.atomic import atomic_write
 from facepin.gpu.picture import Image, png_bytes
 from facepin.panels.commands import Command
 from facepin.panels.requests import CancelJob, Request

@@ -4,8 +4,8 @@ from math import radians
 
 import numpy as np
 
-from facepin.core.camera import Camera, frame_points
-from facepin.core.face_view import MARGIN, expressive
+from facepin.core.look.camera import Camera, frame_points
+from facepin.core.look.face_view import MARGIN, expressive
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
 from facepin.panels.commands import VIEW_COMMANDS, Command

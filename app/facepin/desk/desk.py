@@ -7,8 +7,8 @@ from pathlib import Path
 import moderngl
 import numpy as np
 
-from facepin.core.camera import Camera, Viewport, frame_points
 from facepin.core.errors import FacepinError
+from facepin.core.look.camera import Camera, Viewport, frame_points
 from facepin.core.rig import Rig
 from facepin.desk.keeping import Keeper
 from facepin.desk.library import Library, library_of
@@ -19,13 +19,13 @@ from facepin.desk.stage import Stage
 from facepin.panels.commands import Command
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.view import PaneView, View
-from facepin.session.drag import DragTool
 from facepin.session.edit import Edit
 from facepin.session.filmstrip import Filmstrip
+from facepin.session.hand.drag import DragTool
 from facepin.session.job import Job
 from facepin.session.loading import Loading
 from facepin.session.session import Session
-from facepin.session.solving import SolverChoice
+from facepin.session.solving.solving import SolverChoice
 
 ChartWriter = Callable[[Session, Path], None]
 

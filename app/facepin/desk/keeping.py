@@ -5,8 +5,8 @@ from pathlib import Path
 
 from facepin.core.errors import FacepinError
 from facepin.desk.scenes import Snapshot, scene_of
-from facepin.files.drafts import Draft, Leftover, leftovers
-from facepin.files.scene_file import scene_bytes, write_scene
+from facepin.files.work.drafts import Draft, Leftover, leftovers
+from facepin.files.work.scene_file import scene_bytes, write_scene
 from facepin.session.autosave import Autosave
 from facepin.session.session import Session, Work
 

@@ -9,7 +9,7 @@ from time import perf_counter
 from facepin.core.errors import FacepinError
 from facepin.core.pose import Pose
 from facepin.core.saved_pose import SavedPose
-from facepin.files import pose_library as files
+from facepin.files.work import pose_library as files
 from facepin.session.session import Session
 from facepin.session.shelf import Shelf, next_order, standing
 

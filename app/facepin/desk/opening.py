@@ -4,20 +4,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
+from facepin.core.look.camera import Camera
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk.scenes import RigSource, resume
 from facepin.files import open_rig
-from facepin.files.drafts import Leftover
-from facepin.files.scene_file import SUFFIX, Scene, places, read_scene
+from facepin.files.work.drafts import Leftover
+from facepin.files.work.scene_file import SUFFIX, Scene, places, read_scene
 from facepin.panels.view import PaneView
 from facepin.resources import resource
 from facepin.session.edit import Edit
 from facepin.session.loading import Loading
 from facepin.session.session import Session
-from facepin.session.solving import SolverChoice
+from facepin.session.solving.solving import SolverChoice
 
 OWN_FACES = "faces"
 """Folder of the program's own faces among its assets."""

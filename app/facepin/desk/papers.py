@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from facepin.core.camera import Camera, Viewport
+from facepin.core.look.camera import Camera, Viewport
 from facepin.desk.stage import Stage
-from facepin.files.atomic import atomic_write
+from facepin.files.safely.atomic import atomic_write
 from facepin.gpu.framing import frame
 from facepin.gpu.picture import png_bytes
 from facepin.panels.view import PaneView
-from facepin.session.drag import DragTool
+from facepin.session.hand.drag import DragTool
 
 
 def free_name(folder: Path, name: str, suffix: str) -> Path:

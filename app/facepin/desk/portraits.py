@@ -6,12 +6,12 @@ from pathlib import Path
 import moderngl
 
 from facepin.core.arrays import Floats
-from facepin.core.camera import Camera
 from facepin.core.errors import FacepinError
-from facepin.core.face_view import face_camera
+from facepin.core.look.camera import Camera
+from facepin.core.look.face_view import face_camera
 from facepin.core.pose import Pose
 from facepin.desk.stage import Stage
-from facepin.files.thumbnails import is_writable, mark_of, read_thumbnail, write_thumbnail
+from facepin.files.work.thumbnails import is_writable, mark_of, read_thumbnail, write_thumbnail
 from facepin.gpu.atlas import Atlas, Tile
 
 SIDE = 192

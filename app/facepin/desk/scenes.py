@@ -8,21 +8,21 @@ from typing import Any, get_args, get_type_hints
 import numpy as np
 
 from facepin.core.arrays import Floats, frozen
-from facepin.core.camera import Camera
 from facepin.core.control import Flags, ShapeControl
 from facepin.core.errors import FacepinError
-from facepin.core.mirror import Mirror, find_mirror
+from facepin.core.look.camera import Camera
 from facepin.core.names import listed
 from facepin.core.pose import FRONT_AXES, Pin, Pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
-from facepin.files.checked_json import JsonObject
-from facepin.files.pins_file import parse_pins, pins_as_json
-from facepin.files.scene_file import RigReference, Scene, SceneControl, ScenePane, Weights
-from facepin.files.shape_spelling import match_shapes
+from facepin.core.shapes.mirror import Mirror, find_mirror
+from facepin.files.safely.checked_json import JsonObject
+from facepin.files.work.pins_file import parse_pins, pins_as_json
+from facepin.files.work.scene_file import RigReference, Scene, SceneControl, ScenePane, Weights
+from facepin.files.work.shape_spelling import match_shapes
 from facepin.panels.view import PaneView
 from facepin.session.session import MOST_PANES, Pane, Work
-from facepin.session.solving import SolverChoice, choose, snapped
+from facepin.session.solving.solving import SolverChoice, choose, snapped
 from facepin.solvers import SOLVERS
 from facepin.solvers.settings import Plain, make_settings, plain_settings
 

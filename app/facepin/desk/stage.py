@@ -9,16 +9,16 @@ from time import perf_counter
 import moderngl
 import numpy as np
 
-from facepin.core.answering import answering
 from facepin.core.arrays import Floats, Indices, Points, frozen
-from facepin.core.camera import Camera, Viewport
 from facepin.core.control import ShapeControl
-from facepin.core.deform import Deformer
-from facepin.core.normals import NormalField
-from facepin.core.picking import pick
-from facepin.core.places import Places, find_places
+from facepin.core.look.camera import Camera, Viewport
+from facepin.core.mesh.normals import NormalField
+from facepin.core.mesh.picking import pick
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
+from facepin.core.shapes.answering import answering
+from facepin.core.shapes.deform import Deformer
+from facepin.core.shapes.places import Places, find_places
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame
@@ -30,7 +30,7 @@ from facepin.gpu.scene import PaneMesh, Part, Scene
 from facepin.gpu.still import StillLayer
 from facepin.panels.view import Ghost, PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
-from facepin.session.drag import DragTool
+from facepin.session.hand.drag import DragTool
 from facepin.session.heat import HeatGauge
 from facepin.session.session import Pane, Session, Work
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats
-from facepin.core.measures import ACTIVE, LIMIT_SLACK, weight_errors
+from facepin.core.shapes.measures import ACTIVE, LIMIT_SLACK, weight_errors
 from facepin.figures.chart_style import ALARM, DIM, FAINT, TEXT, TRACK, add_note, chart_style, number
 from facepin.figures.comparison import Comparison
 from facepin.solvers.colours import INKS, REFERENCE, Ink

@@ -8,17 +8,17 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from facepin.core.camera import View
 from facepin.core.errors import FacepinError
-from facepin.core.measures import moves
+from facepin.core.look.camera import View
 from facepin.core.pose import Pose
+from facepin.core.shapes.measures import moves
 from facepin.figures import charts
 from facepin.figures.chart_style import number, write_chart
 from facepin.figures.comparison import Answer, Comparison, as_json, compare, weights_csv
 from facepin.figures.pictures import Painter, heat_legend
-from facepin.files.atomic import atomic_write
-from facepin.files.pins_file import write_pins
-from facepin.files.pose_file import write_pose
+from facepin.files.safely.atomic import atomic_write
+from facepin.files.work.pins_file import write_pins
+from facepin.files.work.pose_file import write_pose
 from facepin.options import (
     VIEWS,
     add_rig,

@@ -7,12 +7,12 @@ from io import StringIO
 from statistics import median
 from typing import Any
 
-from facepin.core import measures
 from facepin.core.arrays import Floats, Points
 from facepin.core.names import without_author
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
-from facepin.session.solving import PinSolver, Solved, SolverChoice
+from facepin.core.shapes import measures
+from facepin.session.solving.solving import PinSolver, Solved, SolverChoice
 from facepin.solvers.settings import plain_settings
 
 FRAMES = 20

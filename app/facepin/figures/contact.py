@@ -8,8 +8,8 @@ from facepin.core.errors import FacepinError
 from facepin.core.saved_pose import SavedPose
 from facepin.figures.compare import made_folder, progress_line
 from facepin.figures.pictures import Painter
-from facepin.files.atomic import atomic_write
-from facepin.files.pose_library import saved_poses
+from facepin.files.safely.atomic import atomic_write
+from facepin.files.work.pose_library import saved_poses
 from facepin.options import VIEWS, add_rig, count, open_with_bar, picture_size, png_path
 from facepin.session.shelf import standing
 from facepin.sheets import Pane, contact_columns, write_sheet

@@ -9,7 +9,7 @@ from facepin.figures.compare import made_folder, progress_line, write_comparison
 from facepin.figures.comparison import Comparison, compare
 from facepin.figures.posing import DELIGHT, dragged, handles, named_weights
 from facepin.options import open_with_bar
-from facepin.session.solving import choose
+from facepin.session.solving.solving import choose
 from facepin.solvers import SOLVERS
 
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from facepin.core.errors import FacepinError
-from facepin.core.measures import e_rms
 from facepin.core.names import without_author
+from facepin.core.shapes.measures import e_rms
 from facepin.figures.chart_style import number, write_chart
 from facepin.figures.charts import Series, error_charts, slider_panels, weight_bars
-from facepin.files.atomic import atomic_write
+from facepin.files.safely.atomic import atomic_write
 from facepin.session.session import Session
 from facepin.solvers.colours import INKS, REFERENCE
 

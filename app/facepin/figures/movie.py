@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from facepin.core.arrays import Floats
-from facepin.core.camera import Viewport
 from facepin.core.errors import FacepinError
-from facepin.core.measures import REST
+from facepin.core.look.camera import Viewport
 from facepin.core.pose import Pin, Pose, as_vector
 from facepin.core.rig import Rig
+from facepin.core.shapes.measures import REST
 from facepin.figures.compare import progress_line
 from facepin.figures.pictures import Painter
 from facepin.figures.posing import DELIGHT, dragged, handles, named_weights
@@ -30,7 +30,7 @@ from facepin.options import (
 )
 from facepin.session.edit import Edit
 from facepin.session.session import Session
-from facepin.session.solving import SolverChoice
+from facepin.session.solving.solving import SolverChoice
 from facepin.sheets import Image, font, shortened
 
 if TYPE_CHECKING:

@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from facepin.core.arrays import Floats, Points
-from facepin.core.camera import View
-from facepin.core.face_view import face_camera
-from facepin.core.heat import heat_colours, heat_scale
-from facepin.core.measures import percent
-from facepin.core.normals import NormalField
+from facepin.core.look.camera import View
+from facepin.core.look.face_view import face_camera
+from facepin.core.look.heat import heat_colours, heat_scale
+from facepin.core.mesh.normals import NormalField
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
+from facepin.core.shapes.measures import percent
 from facepin.sheets import Image, Legend
 
 if TYPE_CHECKING:

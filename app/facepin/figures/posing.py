@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from facepin.core import measures
 from facepin.core.arrays import Floats, Points
-from facepin.core.picking import first_hit
+from facepin.core.mesh.picking import first_hit
 from facepin.core.pose import Freedom, Pin
 from facepin.core.rig import Rig
+from facepin.core.shapes import measures
 from facepin.figures.study.animator import SPACING, most_moved
-from facepin.files.shape_spelling import match_shapes
+from facepin.files.work.shape_spelling import match_shapes
 
 DELIGHT = {"jawOpen": 0.5, "mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "browInnerUp": 0.9}
 """An expression that faces with ARKit's shapes can make."""

@@ -4,12 +4,12 @@ from argparse import ArgumentParser, Namespace
 from math import pi
 from pathlib import Path
 
-from facepin.core.camera import Camera, frame_points
 from facepin.core.errors import FacepinError
+from facepin.core.look.camera import Camera, frame_points
 from facepin.figures.compare import made_folder, progress_line
 from facepin.figures.pictures import Painter
 from facepin.files.animation import write_animation
-from facepin.files.atomic import atomic_write
+from facepin.files.safely.atomic import atomic_write
 from facepin.options import add_rig, count, first_pose, open_with_bar, picture_size
 
 SECONDS = 2.4

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from facepin.files.atomic import atomic_write
+from facepin.files.safely.atomic import atomic_write
 
 
 def write_animation(path: Path, frames: Sequence[NDArray[np.uint8]], seconds: float) -> None:

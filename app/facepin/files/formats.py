@@ -7,11 +7,11 @@ from pathlib import Path
 from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
-from facepin.files.gltf_reader import read_gltf
-from facepin.files.gltf_writer import write_glb
+from facepin.files.gltf.reader import read_gltf
+from facepin.files.gltf.writer import write_glb
 from facepin.files.mesh_writers import write_obj, write_ply, write_stl
-from facepin.files.npz_reader import read_npz
-from facepin.files.obj_folder import read_obj_file, read_obj_folder
+from facepin.files.npz.reader import read_npz
+from facepin.files.obj.folder import read_obj_file, read_obj_folder
 from facepin.files.options import Progress, ReadOptions, no_progress
 
 FOLDER = "folder"

@@ -7,7 +7,7 @@ import numpy as np
 
 from facepin.core.arrays import Floats
 from facepin.core.rig import Rig
-from facepin.files.atomic import atomic_write
+from facepin.files.safely.atomic import atomic_write
 
 if TYPE_CHECKING:
     from trimesh import Trimesh

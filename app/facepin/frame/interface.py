@@ -8,26 +8,32 @@ from time import perf_counter
 import numpy as np
 from imgui_bundle import imgui
 
-from facepin.core.camera import Viewport
-from facepin.core.gaze import find_gaze
-from facepin.core.measures import active, moves, percent
-from facepin.core.places import titles
+from facepin.core.look.camera import Viewport
 from facepin.core.pose import Pose
-from facepin.core.shape_motion import movers
+from facepin.core.shapes.gaze import find_gaze
+from facepin.core.shapes.measures import active, moves, percent
+from facepin.core.shapes.motion import movers
+from facepin.core.shapes.places import titles
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
-from facepin.files.drafts import Leftover
+from facepin.files.work.drafts import Leftover
 from facepin.panels import layout
-from facepin.panels.about import about_window
 from facepin.panels.chart import SIZE as CHART_SIZE
 from facepin.panels.chart import TITLE as CHART
 from facepin.panels.chart import chart_window
 from facepin.panels.commands import Command
-from facepin.panels.filmstrip import TITLE as FILMSTRIP
-from facepin.panels.filmstrip import filmstrip_window, strip_height
-from facepin.panels.gaze import draw_gaze
-from facepin.panels.guide import Hand, draw_guide
-from facepin.panels.hand import (
+from facepin.panels.help.about import about_window
+from facepin.panels.help.guide import Hand, draw_guide
+from facepin.panels.help.keyboard import keyboard_map
+from facepin.panels.help.palette import palette
+from facepin.panels.history import TITLE as HISTORY
+from facepin.panels.history import history_window
+from facepin.panels.library.filmstrip import TITLE as FILMSTRIP
+from facepin.panels.library.filmstrip import filmstrip_window, strip_height
+from facepin.panels.library.panel import Shown, library_panel
+from facepin.panels.menu import menu_bar
+from facepin.panels.picture.gaze import draw_gaze
+from facepin.panels.picture.hand import (
     aim_ring,
     axis_line,
     draw_gesture,
@@ -37,28 +43,22 @@ from facepin.panels.hand import (
     soft_ring,
     symmetry_button,
 )
-from facepin.panels.history import TITLE as HISTORY
-from facepin.panels.history import history_window
-from facepin.panels.keyboard import keyboard_map
-from facepin.panels.legend import heat_legend
-from facepin.panels.library import Shown, library_panel
-from facepin.panels.menu import menu_bar
-from facepin.panels.palette import palette
-from facepin.panels.pane_title import pane_title, reference_title
-from facepin.panels.pin_menu import pin_menu
+from facepin.panels.picture.legend import heat_legend
+from facepin.panels.picture.pane_title import pane_title, reference_title
+from facepin.panels.picture.pin_menu import pin_menu
+from facepin.panels.picture.vertex_card import vertex_card
 from facepin.panels.pins import list_height, pins_panel, together
 from facepin.panels.recovery import WorkRow, lost_card, recovery_strip
 from facepin.panels.requests import CancelJob, CancelLoading, Request
-from facepin.panels.solver import solver_panel
+from facepin.panels.solving.panel import solver_panel
+from facepin.panels.solving.tidy import LABEL, Tidied, tidy_card
 from facepin.panels.status import progress_card, status_line
 from facepin.panels.theme import PICTURE, packed, pane_colours
-from facepin.panels.tidy import LABEL, Tidied, tidy_card
-from facepin.panels.vertex_card import vertex_card
 from facepin.panels.weights.panel import weights_panel
 from facepin.session.edit import Edit
-from facepin.session.gaze import GazeHold
-from facepin.session.hold import Hold
-from facepin.session.mirroring import linked_weights
+from facepin.session.hand.gaze import GazeHold
+from facepin.session.hand.hold import Hold
+from facepin.session.hand.mirroring import linked_weights
 from facepin.session.session import Session
 
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.errors import FacepinError
-from facepin.files.atomic import atomic_write, make_folder, set_aside
-from facepin.files.reading import read_bytes
+from facepin.files.safely.atomic import atomic_write, make_folder, set_aside
+from facepin.files.safely.reading import read_bytes
 
 MOST = 0.65
 """Largest share of the room that a panel takes when everything is made larger."""

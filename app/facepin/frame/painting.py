@@ -2,7 +2,7 @@
 
 import moderngl
 
-from facepin.core.camera import Camera, Viewport
+from facepin.core.look.camera import Camera, Viewport
 from facepin.core.quality import LEVELS, Level, level
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage

@@ -6,7 +6,6 @@ from time import monotonic
 
 from imgui_bundle import imgui
 
-from facepin.core.camera import Viewport
 from facepin.core.events import (
     NONE,
     CloseRequested,
@@ -19,17 +18,18 @@ from facepin.core.events import (
     PointerReleased,
     Scrolled,
 )
-from facepin.core.gaze import Gaze, find_gaze
+from facepin.core.look.camera import Viewport
+from facepin.core.shapes.gaze import Gaze, find_gaze
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
 from facepin.panels.commands import PICTURES, Command, command_for
 from facepin.panels.requests import OpenPath, Request
 from facepin.panels.view import View
 from facepin.session.edit import Edit
-from facepin.session.gaze import GazeHold, is_on_handle, straightened
+from facepin.session.hand.gaze import GazeHold, is_on_handle, straightened
+from facepin.session.hand.nudge import goes_on
+from facepin.session.hand.sight import DEAD_ZONE, Pixel, Sight, pin_at
 from facepin.session.navigation import PRESETS, Navigator
-from facepin.session.nudge import goes_on
-from facepin.session.sight import DEAD_ZONE, Pixel, Sight, pin_at
 
 DOUBLE_CLICK = 0.35
 """Seconds from the end of a click to the press that makes it a double click."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import moderngl
 
-from facepin.core.camera import Camera, Viewport
+from facepin.core.look.camera import Camera, Viewport
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame
 from facepin.gpu.programs import load_program

@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 
 from facepin.core.arrays import Floats, Indices
+from facepin.core.mesh.topology import Labels, connected, weld_map
 from facepin.core.rig import Part, Rig
-from facepin.core.topology import Labels, connected, weld_map
 from facepin.gpu.materials import CLAY, SKIN, WHITE, by_name
 
 EYEBALL_NAME, SHELL_NAME = "eyeball", "clear shell of an eye"

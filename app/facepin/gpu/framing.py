@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 
 from facepin.core.arrays import Floats
-from facepin.core.camera import Camera, Viewport
+from facepin.core.look.camera import Camera, Viewport
 
 Y_DOWN = np.diag([1.0, -1.0, 1.0, 1.0])
 """OpenGL counts rows from below.  Turned over, a picture begins with its first row, as windows and files want

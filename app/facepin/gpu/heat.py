@@ -4,7 +4,7 @@ import moderngl
 import numpy as np
 
 from facepin.core.arrays import Points
-from facepin.core.heat import BEYOND, heat_colours, hex_colours
+from facepin.core.look.heat import BEYOND, heat_colours, hex_colours
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing
 from facepin.gpu.lamps import sight

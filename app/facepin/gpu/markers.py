@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats, Points
-from facepin.core.camera import Camera, Viewport
+from facepin.core.look.camera import Camera, Viewport
 from facepin.core.pose import Pin, Pose
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major, frame

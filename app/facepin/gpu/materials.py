@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
+from facepin.core.mesh.topology import DrawRun
 from facepin.core.rig import Part, Rig, Texture
-from facepin.core.topology import DrawRun
 from facepin.gpu.eyes import paint_iris
 
 Colour = tuple[float, float, float]

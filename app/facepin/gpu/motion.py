@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Indices, Points
+from facepin.core.mesh.topology import weld_map
 from facepin.core.rig import Rig
-from facepin.core.topology import weld_map
 from facepin.gpu.materials import Run
 
 VISIBLE = 0.25

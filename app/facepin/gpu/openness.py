@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from facepin.core.arrays import Floats, Indices, Points
+from facepin.core.mesh.topology import DrawOrder
 from facepin.core.rig import Rig
-from facepin.core.topology import DrawOrder
 from facepin.gpu.canvas import release_framebuffer
 from facepin.gpu.framing import column_major
 from facepin.gpu.materials import EYEBALL, Run, by_name, cull_hidden

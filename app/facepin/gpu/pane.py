@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from facepin.core.arrays import Points
-from facepin.core.shading import Shading
+from facepin.core.look.shading import Shading
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing
 from facepin.gpu.ghost import GhostLayer

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
-from facepin.core.camera import Camera, Viewport
 from facepin.core.errors import FacepinError
+from facepin.core.look.camera import Camera, Viewport
+from facepin.core.look.shading import Shading
 from facepin.core.rig import Rig
-from facepin.core.shading import Shading
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, frame, tile
 from facepin.gpu.markers import MarkerLayer, Markers

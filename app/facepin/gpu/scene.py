@@ -8,10 +8,10 @@ import moderngl
 import numpy as np
 
 from facepin.core.arrays import Points
-from facepin.core.camera import Camera, Viewport
+from facepin.core.look.camera import Camera, Viewport
+from facepin.core.look.shading import Shading
+from facepin.core.mesh.topology import draw_order
 from facepin.core.rig import Rig
-from facepin.core.shading import Shading
-from facepin.core.topology import draw_order
 from facepin.gpu.background import Background
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.eyeballs import eyes_apart

@@ -5,8 +5,8 @@ from typing import Literal
 import moderngl
 import numpy as np
 
+from facepin.core.look.shading import Shading
 from facepin.core.rig import Texture
-from facepin.core.shading import Shading
 from facepin.gpu.framing import Framing
 from facepin.gpu.lamps import Sight, sight
 from facepin.gpu.materials import CLAY, Run, linear

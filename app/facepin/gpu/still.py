@@ -6,8 +6,8 @@ with a copy of wall and still triangles, with their depth, and only what moves i
 
 from collections.abc import Sequence
 
-from facepin.core.camera import Camera, Viewport
-from facepin.core.shading import Shading
+from facepin.core.look.camera import Camera, Viewport
+from facepin.core.look.shading import Shading
 from facepin.gpu.background import Colour
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import frame

@@ -4,7 +4,7 @@ import moderngl
 import numpy as np
 
 from facepin.core.arrays import Indices, Points
-from facepin.core.outlines import outlines
+from facepin.core.mesh.outlines import outlines
 from facepin.gpu.canvas import Canvas
 from facepin.gpu.framing import Framing, column_major
 from facepin.gpu.materials import material

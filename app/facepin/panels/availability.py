@@ -1,6 +1,6 @@
 """What a command is called now, whether it can do anything and if not, why; and whether it did already."""
 
-from facepin.core.gaze import find_gaze
+from facepin.core.shapes.gaze import find_gaze
 from facepin.panels.commands import Command
 from facepin.panels.view import View
 from facepin.session.session import Session

@@ -10,8 +10,8 @@ import numpy as np
 from imgui_bundle import imgui, implot
 
 from facepin.core.arrays import Floats
-from facepin.core.measures import e_rms, weight_errors
 from facepin.core.rig import Rig
+from facepin.core.shapes.measures import e_rms, weight_errors
 from facepin.panels.commands import Command
 from facepin.panels.theme import Colour, Theme, pane_colours
 from facepin.panels.tiles import shortened

@@ -3,8 +3,8 @@
 from enum import Enum
 from typing import Literal
 
-from facepin.core.camera import View
 from facepin.core.events import KeyPressed
+from facepin.core.look.camera import View
 from facepin.session.navigation import Habit
 
 Topic = Literal["File", "Edit", "Pins", "Poses", "View", "Compare", "Help"]

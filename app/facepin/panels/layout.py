@@ -5,7 +5,7 @@ from math import ceil
 
 from imgui_bundle import imgui
 
-from facepin.core.camera import Viewport
+from facepin.core.look.camera import Viewport
 
 SPACE = "panels"
 WEIGHTS = "Weights"

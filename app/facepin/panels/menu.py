@@ -8,14 +8,14 @@ from imgui_bundle import imgui
 from facepin.panels import layout
 from facepin.panels.availability import is_on, title_of, why_not
 from facepin.panels.commands import VIEW_COMMANDS, Command, key_of
-from facepin.panels.overlays import close_on_escape, explain_item, overlay_items
+from facepin.panels.picture.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.pins import STROKES
 from facepin.panels.requests import AddPane, Choose, ClosePane, KeepPane, OpenPath, RandomReference, Request
 from facepin.panels.view import CHOICES, View
 from facepin.resources import builtin_faces
 from facepin.session.reference import RANDOM_SHAPES
 from facepin.session.session import MOST_PANES, Session
-from facepin.session.solving import choose
+from facepin.session.solving.solving import choose
 from facepin.solvers import SOLVERS
 
 POSES_MENU = (

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Points
-from facepin.core.measures import percent, pin_errors
 from facepin.core.pose import Freedom, Pin
 from facepin.core.rig import Rig
+from facepin.core.shapes.measures import percent, pin_errors
 from facepin.panels.commands import Command
 from facepin.panels.icons import eye_button, icon_width, lock_button
 from facepin.panels.requests import NamePin, Request, SelectPins, SetPins

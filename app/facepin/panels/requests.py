@@ -6,8 +6,8 @@ from pathlib import Path
 from facepin.core.control import ShapeControl
 from facepin.core.pose import Freedom
 from facepin.panels.commands import Command
-from facepin.panels.library_requests import LibraryRequest
-from facepin.session.solving import SolverChoice
+from facepin.panels.library.requests import LibraryRequest
+from facepin.session.solving.solving import SolverChoice
 
 
 @dataclass(frozen=True)

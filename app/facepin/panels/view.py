@@ -4,18 +4,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from facepin.core.look.shading import MODES, Shading
 from facepin.core.pose import Freedom
 from facepin.core.quality import Quality
-from facepin.core.shading import MODES, Shading
-from facepin.panels.guide import Guide
+from facepin.panels.help.guide import Guide
 from facepin.panels.layout import Beside
-from facepin.panels.library_view import LibraryView
+from facepin.panels.library.view import LibraryView
 from facepin.panels.pins import FREEDOMS, PinsView
 from facepin.panels.recovery import RecoveryView
 from facepin.panels.theme import THEMES, Theme, ThemeName
 from facepin.panels.weights.view import WeightsView
 from facepin.session.navigation import PRESETS, Habit
-from facepin.session.solving import SolverChoice, choose
+from facepin.session.solving.solving import SolverChoice, choose
 
 Ghost = Literal["none", "neutral", "reference"]
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from facepin.core import measures
 from facepin.core.arrays import Floats, Points
 from facepin.core.control import ShapeControl
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
+from facepin.core.shapes import measures
 from facepin.session.session import Pane
 
 NEAR_PINS = 0.15

@@ -4,11 +4,11 @@ import numpy as np
 
 from facepin.core.arrays import Floats, Points
 from facepin.core.control import ShapeControl
-from facepin.core.geodesic import geodesic_distances
-from facepin.core.heat import heat_scale
-from facepin.core.measures import moves
+from facepin.core.look.heat import heat_scale
+from facepin.core.mesh.geodesic import geodesic_distances
 from facepin.core.rig import Rig
-from facepin.core.shape_motion import shape_moves
+from facepin.core.shapes.measures import moves
+from facepin.core.shapes.motion import shape_moves
 from facepin.session.session import Pane
 
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import Literal
 
-from facepin.core.camera import Camera, Viewport
 from facepin.core.events import (
     Button,
     Event,
@@ -15,6 +14,7 @@ from facepin.core.events import (
     PointerReleased,
     Scrolled,
 )
+from facepin.core.look.camera import Camera, Viewport
 
 Motion = Callable[[Camera, float, float, Viewport], Camera]
 """(camera, dx, dy in pixels, viewport) -> camera."""

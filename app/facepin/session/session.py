@@ -10,16 +10,16 @@ import numpy as np
 from facepin.core.arrays import Floats, frozen
 from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
-from facepin.core.mirror import Mirror, find_mirror
 from facepin.core.names import listed
 from facepin.core.pose import Pin, Pose, hold_alike, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
+from facepin.core.shapes.mirror import Mirror, find_mirror
 from facepin.session.edit import Edit
 from facepin.session.history import History, Step
-from facepin.session.press import Begun, Press, begin, grabbed, press
 from facepin.session.shelf import Shelf
-from facepin.session.solving import PinSolver, Solved, SolverChoice, snapped
+from facepin.session.solving.press import Begun, Press, begin, grabbed, press
+from facepin.session.solving.solving import PinSolver, Solved, SolverChoice, snapped
 
 MOST_PANES = 4
 

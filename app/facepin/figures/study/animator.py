@@ -13,13 +13,13 @@ from fnmatch import fnmatch
 
 import numpy as np
 
-from facepin.core import measures
 from facepin.core.arrays import Floats, Points
 from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.pose import FRONT_AXES, Freedom, Pin, Pose, as_vector
 from facepin.core.rig import Rig
-from facepin.session.solving import PinSolver, SolverChoice, snapped
+from facepin.core.shapes import measures
+from facepin.session.solving.solving import PinSolver, SolverChoice, snapped
 
 FRAMES = 20
 """Frames that every pin is dragged for."""

@@ -15,7 +15,7 @@ from facepin.figures.study.intervals import Interval, Statistic, bootstrap, medi
 from facepin.figures.study.points import spread_points
 from facepin.figures.study.processes import spread
 from facepin.figures.study.reach import Reach
-from facepin.session.solving import SolverChoice
+from facepin.session.solving.solving import SolverChoice
 
 DEAD = 0.9
 """A drag of which more than this share remains has not moved the point."""

@@ -10,12 +10,12 @@ from math import ceil, pi
 
 import numpy as np
 
-from facepin.core import measures
 from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.pose import FRONT_AXES, Freedom, Pin, as_vector
 from facepin.core.rig import Rig
-from facepin.session.solving import PinSolver, SolverChoice
+from facepin.core.shapes import measures
+from facepin.session.solving.solving import PinSolver, SolverChoice
 
 DIRECTIONS = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
 """Right, up, left and down on the screen."""

@@ -9,10 +9,10 @@ from math import pi
 
 import numpy as np
 
-from facepin.core import measures
 from facepin.core.arrays import Floats, Points
 from facepin.core.pose import FRONT_AXES, Pin, Pose, as_vector, with_changed
 from facepin.core.rig import Rig
+from facepin.core.shapes import measures
 from facepin.figures.study.drags import PIXEL, Method
 from facepin.session.edit import Edit
 from facepin.session.session import Session

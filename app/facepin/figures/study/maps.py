@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from facepin.core.arrays import Floats
-from facepin.core.camera import Viewport
-from facepin.core.heat import heat_colours
-from facepin.core.measures import moves
+from facepin.core.look.camera import Viewport
+from facepin.core.look.heat import heat_colours
 from facepin.core.names import without_author
 from facepin.core.rig import Rig
+from facepin.core.shapes.measures import moves
 from facepin.figures.pictures import Painter
 from facepin.figures.study.drag_study import DragRow, DragStudy
 from facepin.figures.study.intervals import median, p90
-from facepin.files.pose_library import free_key
+from facepin.files.work.pose_library import free_key
 from facepin.sheets import Image, Legend, Pane, write_sheet
 from facepin.solvers.colours import INKS
 

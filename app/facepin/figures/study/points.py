@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from facepin.core import measures
 from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
-from facepin.core.shape_motion import shape_moves
+from facepin.core.shapes import measures
+from facepin.core.shapes.motion import shape_moves
 from facepin.figures.posing import in_sight
 
 MOVED = 0.01

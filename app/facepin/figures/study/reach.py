@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from facepin.core.answering import answering
 from facepin.core.arrays import Floats
 from facepin.core.pose import FRONT_AXES, Pin, as_vector, pin_rows
 from facepin.core.rig import Rig
+from facepin.core.shapes.answering import answering
 from facepin.solvers.boxed import Price
 from facepin.solvers.interface import PinSystem
 from facepin.solvers.ties import prepare_tied

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from facepin.core import measures
 from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.names import clean_name, listed
 from facepin.core.rig import Rig
-from facepin.files.pose_file import READERS, read_weights
-from facepin.files.pose_table import read_pose_table
-from facepin.files.shape_spelling import match_shapes
+from facepin.core.shapes import measures
+from facepin.files.work.pose_file import READERS, read_weights
+from facepin.files.work.pose_table import read_pose_table
+from facepin.files.work.shape_spelling import match_shapes
 
 
 @dataclass(frozen=True, eq=False)

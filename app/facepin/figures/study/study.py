@@ -13,7 +13,7 @@ from facepin.figures.study.animator import Outcome, Protocol, animate, drawable,
 from facepin.figures.study.intervals import Interval, bootstrap, median
 from facepin.figures.study.processes import spread
 from facepin.figures.study.references import References
-from facepin.session.solving import SolverChoice
+from facepin.session.solving.solving import SolverChoice
 
 FREEDOMS: tuple[Freedom, ...] = get_args(Freedom)
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from facepin.figures.chart_style import DIM, chart_style, number
 from facepin.figures.study.intervals import Interval
-from facepin.files.atomic import atomic_write
-from facepin.session.solving import SolverChoice
+from facepin.files.safely.atomic import atomic_write
+from facepin.session.solving.solving import SolverChoice
 from facepin.solvers.colours import INKS
 from facepin.solvers.settings import plain_settings
 

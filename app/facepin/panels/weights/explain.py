@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from facepin.core.measures import percent
+from facepin.core.shapes.measures import percent
 from facepin.panels.weights.columns import Zone
 from facepin.panels.weights.painter import Painter
 from facepin.panels.weights.place import Place

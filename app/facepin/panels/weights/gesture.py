@@ -10,7 +10,7 @@ from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
 from facepin.panels.requests import CancelEdit, PairShapes, SetControl
 from facepin.session.edit import Edit
-from facepin.session.sliding import slid, within
+from facepin.session.hand.sliding import slid, within
 
 Wish = Edit | SetControl | CancelEdit | PairShapes | None
 """What the panel asks for."""

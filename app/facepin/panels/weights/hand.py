@@ -17,7 +17,7 @@ from facepin.panels.weights.place import NOWHERE, Place, place_of_mouse
 from facepin.panels.weights.restraints import toggled
 from facepin.panels.weights.view import WeightsView
 from facepin.session.edit import Edit
-from facepin.session.sliding import slid
+from facepin.session.hand.sliding import slid
 
 CLICK = 0.18
 """Seconds that a click on a slider waits for a second one: less than the main loop waits to look again."""

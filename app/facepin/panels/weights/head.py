@@ -5,8 +5,8 @@ from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
-from facepin.core.measures import active as active_shapes
 from facepin.core.rig import Rig
+from facepin.core.shapes.measures import active as active_shapes
 from facepin.panels.icons import padlock
 from facepin.panels.requests import CancelEdit
 from facepin.panels.weights import icons
@@ -15,7 +15,7 @@ from facepin.panels.weights.listing import ARRANGEMENTS
 from facepin.panels.weights.restraints import FLAGS, Flag, flags_of, freed
 from facepin.panels.weights.view import WeightsView
 from facepin.session.edit import Edit
-from facepin.session.sliding import gained, reset
+from facepin.session.hand.sliding import gained, reset
 
 MOST_GAIN = 2.0
 GAIN_SPEED = 0.005

@@ -7,9 +7,9 @@ from typing import Literal, get_args
 import numpy as np
 
 from facepin.core.arrays import Floats, Indices
-from facepin.core.measures import ACTIVE
-from facepin.core.regions import REGIONS, SIDES, regions_and_sides
 from facepin.core.rig import Rig
+from facepin.core.shapes.measures import ACTIVE
+from facepin.core.shapes.regions import REGIONS, SIDES, regions_and_sides
 
 Arrangement = Literal["rig order", "by weight", "by region", "by side"]
 ARRANGEMENTS: tuple[Arrangement, ...] = get_args(Arrangement)

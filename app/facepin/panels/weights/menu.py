@@ -6,14 +6,14 @@ from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
-from facepin.core.mirror import Mirror
 from facepin.core.rig import Rig
-from facepin.panels.overlays import close_on_escape
+from facepin.core.shapes.mirror import Mirror
+from facepin.panels.picture.overlays import close_on_escape
 from facepin.panels.requests import PairShapes, SetControl
 from facepin.panels.weights.listing import Group
 from facepin.panels.weights.restraints import FLAGS, flags_of, limited, toggled
 from facepin.session.edit import Edit
-from facepin.session.sliding import reset, slid
+from facepin.session.hand.sliding import reset, slid
 
 Twins = Callable[[], Mirror]
 """Tells left from right; asked only when that is to be shown, since it may have to be found out."""

@@ -1,0 +1,1 @@
+"""What any mesh has: topology, normals, distances, picking."""

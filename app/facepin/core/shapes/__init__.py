@@ -1,0 +1,1 @@
+"""What the shapes of a rig do: deformation, motion, regions, sides, places."""

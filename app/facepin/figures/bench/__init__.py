@@ -1,0 +1,1 @@
+"""What a drag frame costs."""

@@ -1,0 +1,56 @@
+"""What a glTF material says about the look of a part; glTF colours are linear, ours are sRGB."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from facepin.core.arrays import Points, frozen
+from facepin.core.rig_builder import PartLook
+from facepin.files.gltf.document import GltfDocument
+from facepin.files.safely.checked_json import JsonObject
+
+
+def linear_to_srgb(linear: ArrayLike) -> Points:
+    """Encode linear light as sRGB, both 0..1, any shape (IEC 61966-2-1)."""
+    light = np.clip(np.asarray(linear, np.float64), 0.0, 1.0)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055).astype(np.float32)
+
+
+def srgb_to_linear(encoded: ArrayLike) -> Points:
+    """Decode sRGB to linear light, both 0..1, any shape."""
+    colour = np.clip(np.asarray(encoded, np.float64), 0.0, 1.0)
+    return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4).astype(np.float32)
+
+
+def material_factor(document: GltfDocument, primitive: JsonObject) -> Points:
+    """Return the linear base colour factor of a primitive's material, (3,), ones where there is none."""
+    shine = shine_of(document, primitive)
+    if shine is None or "baseColorFactor" not in shine:
+        return np.ones(3, np.float32)
+    factor = np.clip(shine.numbers("baseColorFactor", 4)[:3], 0.0, 1.0)
+    return frozen(factor, np.float32)
+
+
+def part_look(document: GltfDocument, primitive: JsonObject, mesh: str, at: int, count: int) -> PartLook:
+    """Return name and look of the part that primitive `at` of `count` makes.
+
+    A mesh of one primitive gives the part its name, else the material does.  A white factor says nothing
+    where a texture or vertex colours carry the colour.
+    """
+    shine = shine_of(document, primitive)
+    name = mesh if count == 1 else f"{mesh} {at}"
+    if shine is None:
+        return PartLook(name)
+    if count > 1:
+        name = document.root.children("materials")[primitive.integer("material")].text("name", "") or name
+    factor = material_factor(document, primitive)
+    carried = "baseColorTexture" in shine or "COLOR_0" in primitive.child("attributes")
+    red, green, blue = (float(channel) for channel in linear_to_srgb(factor))
+    colour = None if carried and (factor == 1.0).all() else (red, green, blue)
+    roughness = shine.number("roughnessFactor", 1.0, low=0.0, high=1.0)
+    return PartLook(name, colour, roughness)
+
+
+def shine_of(document: GltfDocument, primitive: JsonObject) -> JsonObject | None:
+    """Return the `pbrMetallicRoughness` of a primitive's material, or None without a material."""
+    index = primitive.optional_integer("material")
+    return None if index is None else document.root.children("materials")[index].child("pbrMetallicRoughness")

@@ -1,0 +1,1 @@
+"""What every reader and writer stands on: whole writes, locks, checked JSON."""

@@ -1,0 +1,1 @@
+"""What Facepin itself keeps: scenes, poses, pins, library, drafts, preferences."""

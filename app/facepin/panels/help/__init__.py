@@ -1,0 +1,1 @@
+"""Guide, keyboard, palette, about."""

@@ -1,0 +1,1 @@
+"""The hand: gestures that turn input into edits."""

@@ -108,7 +108,7 @@ def _window(options: Namespace) -> None:
     from platformdirs import user_config_path, user_pictures_path
 
     from facepin.files.work.preferences import read_preferences
-    from facepin.session.session import MOST_PANES
+    from facepin.session.work import MOST_PANES
     from facepin.solvers import SOLVERS
 
     try:

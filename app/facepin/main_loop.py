@@ -15,8 +15,11 @@ from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk.desk import ChartWriter, Desk
 from facepin.files.work.preferences import Preferences, read_preferences, write_preferences
-from facepin.frame import interface
+from facepin.frame.bars import bars
+from facepin.frame.cards import cards
+from facepin.frame.docks import panels
 from facepin.frame.layout_file import LayoutFile
+from facepin.frame.over_picture import over_picture
 from facepin.frame.painting import Painting
 from facepin.frame.routing import Router
 from facepin.panels import layout
@@ -197,7 +200,7 @@ def _loop(
 
         # The hand in the picture; then the panels, so that they show this frame's weights.
         asked = router.take(events, desk, viewports, window.scale)
-        asked += interface.bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
+        asked += bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
         if reset_layout:
@@ -208,11 +211,11 @@ def _loop(
             stage.with_reference = view.reference_shown
             viewports = layout.split(viewport, len(stage.panes), PANE_GAP * window.scale)
             desk.viewport, desk.pixel_scale = viewports[0], window.scale
-        asked += interface.panels(desk, scale)
-        asked += interface.cards(desk, viewport, window.pixel_ratio, scale)
+        asked += panels(desk, scale)
+        asked += cards(desk, viewport, window.pixel_ratio, scale)
         if stage is not None:
             moved = stage.update()
-            asked += interface.over_picture(desk, viewport, viewports, window.pixel_ratio, scale)
+            asked += over_picture(desk, viewport, viewports, window.pixel_ratio, scale)
             moving = moved or router.navigator.holding or desk.tool.holding
             painting.draw(desk, stage, viewports, window.size, theme.panel, moving=moving)
             window.show(painting.flat())

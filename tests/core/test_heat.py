@@ -9,8 +9,8 @@ from facepin.core.control import ShapeControl
 from facepin.core.look.heat import FULL, STOPS, from_oklab, heat_colours, heat_scale, hex_colours, oklab
 from facepin.core.pose import rest_pose
 from facepin.session.heat import HeatGauge
-from facepin.session.session import Pane
 from facepin.session.solving.solving import choose
+from facepin.session.work import Pane
 from support.small_rigs import sheet
 
 # Machado, Oliveira and Fernandes (2009), severity 1, on linear light.

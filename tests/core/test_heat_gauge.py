@@ -2,8 +2,8 @@ import numpy as np
 
 from facepin.core.pose import Pin, Pose
 from facepin.session.heat import HeatGauge
-from facepin.session.session import Pane
 from facepin.session.solving.solving import choose
+from facepin.session.work import Pane
 from facepin.solvers.transpose import TransposeSettings
 from support.small_rigs import sheet
 

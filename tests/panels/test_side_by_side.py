@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 
 from facepin.core.events import KeyPressed, PointerMoved, Stirred
 from facepin.core.look.camera import Viewport
-from facepin.frame import interface
+from facepin.frame import docks, over_picture
 from facepin.panels import layout
 from facepin.panels.chart import names_that_fit
 from facepin.panels.commands import Command
@@ -116,13 +116,13 @@ def test_without_a_reference_there_is_nothing_to_show(app: App) -> None:
 
 def test_weights_of_the_reference_are_bars_like_the_others(app: App, monkeypatch: pytest.MonkeyPatch) -> None:
     sets: list[int] = []
-    real = interface.weights_panel
+    real = docks.weights_panel
 
     def watched(*given: object, **more: object) -> object:
         sets.append(0 if more["reference"] is None else 1)
         return real(*given, **more)
 
-    monkeypatch.setattr(interface, "weights_panel", watched)
+    monkeypatch.setattr(docks, "weights_panel", watched)
     row = app.session.rig.shape_names.index(SMILE)
     app.desk.view.weights.search = SMILE
 
@@ -146,13 +146,13 @@ def test_weights_of_the_reference_are_bars_like_the_others(app: App, monkeypatch
 
 def test_heat_is_switched_for_all_panes_and_has_one_legend(app: App, monkeypatch: pytest.MonkeyPatch) -> None:
     legends: list[Viewport] = []
-    real = interface.heat_legend
+    real = over_picture.heat_legend
 
     def watched(height: float, place: Viewport, *rest: float) -> None:
         legends.append(place)
         real(height, place, *rest)
 
-    monkeypatch.setattr(interface, "heat_legend", watched)
+    monkeypatch.setattr(over_picture, "heat_legend", watched)
     app.ask(Command.SHOW_REFERENCE)
     app.session.apply(Edit("Set", True, weights=app.session.work.reference))
     app.step(KeyPressed("h"))

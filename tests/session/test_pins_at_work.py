@@ -20,7 +20,7 @@ from facepin.core.events import (
 from facepin.core.pose import Pin
 from facepin.panels.commands import Command
 from facepin.panels.pins import picked
-from facepin.panels.requests import AddPane, NamePin, RemovePins, SelectPins, SetPins, UseSolver
+from facepin.panels.requests import AddPane, NamePin, RemovePins, SelectPins, SetPins
 from facepin.session.edit import Edit
 from facepin.session.hand import nudge
 from facepin.session.solving.solving import choose
@@ -253,7 +253,7 @@ def test_a_name_or_a_lock_does_not_forget_the_drag_that_another_solver_can_be_as
     app.ask(SetPins(frozenset({first, second}), locked=True))
     assert app.session.pose.weights is weights
     assert app.session.pane.solved is not None
-    app.ask(UseSolver(0, choose("sparse")))
+    app.ask(AddPane(choose("sparse")))
     assert not np.allclose(app.session.pose.weights, weights)
     assert pins_of(app)[first].locked
 

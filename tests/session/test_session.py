@@ -96,13 +96,35 @@ def test_weights_and_pins_can_be_loaded_together() -> None:
     assert session.pose.weights.tolist() == [0.25] * 4
 
 
-def test_another_solver_is_asked_for_the_same_drag() -> None:
-    pins = (held(30, (0.2, 0.1, 0)),)
+def test_choosing_another_solver_moves_nothing() -> None:
     session = Session(RIG, [choose("transpose")])
+    session.apply(Edit("Drag pin", True, (held(30, (0.2, 0.1, 0)),), solve=True))
+    pose = session.pose
+    session.choose_solver(0, choose("tikhonov"))
+    assert session.pose is pose
+    assert session.pane.choice == choose("tikhonov")
+    session.choose_solver(0, choose("tikhonov", keep_limits=True))
+    assert session.pose is pose, "no drag was its own yet"
+
+
+def test_what_a_setting_does_is_seen_on_the_last_drag() -> None:
+    pins = (held(30, (0.2, 0.1, 0)),)
+    session, other = (
+        Session(RIG, [choose("tikhonov", SOLVERS["tikhonov"].settings(alpha))]) for alpha in (0.001, 5.0)
+    )
+    for one in (session, other):
+        one.apply(Edit("Drag pin", True, pins, solve=True))
+    session.choose_solver(0, other.pane.choice)
+    np.testing.assert_array_equal(session.pose.weights, other.pose.weights)
+
+
+def test_in_a_comparison_another_solver_is_asked_for_the_same_drag() -> None:
+    pins = (held(30, (0.2, 0.1, 0)),)
+    session = Session(RIG, [choose("transpose"), choose("sparse")])
     session.apply(Edit("Set", True, weights=np.array([0.5, 0, 0, 0])))
     session.apply(Edit("Drag pin", True, pins, solve=True))
     session.choose_solver(0, choose("tikhonov"))
-    other = Session(RIG, [choose("tikhonov")])
+    other = Session(RIG, [choose("tikhonov"), choose("sparse")])
     other.apply(Edit("Set", True, weights=np.array([0.5, 0, 0, 0])))
     other.apply(Edit("Drag pin", True, pins, solve=True))
     np.testing.assert_array_equal(session.pose.weights, other.pose.weights)

@@ -23,8 +23,9 @@ from facepin.panels.library import requests as shelf
 from facepin.panels.requests import Request
 from facepin.panels.view import View
 from facepin.session.edit import Edit
-from facepin.session.session import Session, Work
+from facepin.session.session import Session
 from facepin.session.solving.solving import choose
+from facepin.session.work import Work
 from facepin.solvers import SOLVERS
 from support.small_rigs import sheet
 

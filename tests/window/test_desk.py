@@ -12,7 +12,7 @@ from facepin.core.look.camera import Camera
 from facepin.core.pose import Pin, Pose
 from facepin.core.rig import Rig
 from facepin.panels.commands import Command
-from facepin.panels.requests import AddPane, ClosePane, KeepPane, SetControl, UseSolver
+from facepin.panels.requests import AddPane, ClosePane, KeepPane, Request, SetControl, UseSolver
 from facepin.resources import resource
 from facepin.session.edit import Edit
 from facepin.session.solving.solving import PinSolver, choose
@@ -29,9 +29,12 @@ def test_requests_of_one_frame_build_on_each_other(tmp_path: Path) -> None:
         assert len(app.frame.viewports) == 2
 
 
-@pytest.mark.parametrize("request_of", [lambda choice: UseSolver(0, choice), AddPane])
-def test_a_solver_that_fails_when_it_is_chosen_says_so(
-    request_of: object, monkeypatch: pytest.MonkeyPatch
+CALMER = choose("transpose", keep_limits=True)
+
+
+@pytest.mark.parametrize("request_", [UseSolver(0, CALMER), AddPane(choose("sparse"))])
+def test_a_solver_that_fails_on_the_last_drag_says_so(
+    request_: Request, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:
         raise FacepinError("no solution for these pins")
@@ -41,7 +44,7 @@ def test_a_solver_that_fails_when_it_is_chosen_says_so(
         app.desk.apply(Edit("Drag pin", True, (Pin(4000, (x, y - 0.5, z)),), solve=True))
         weights = app.session.pose.weights
         monkeypatch.setattr(PinSolver, "solve", fail)
-        app.ask(request_of(choose("tikhonov")))
+        app.ask(request_)
         assert app.desk.is_error
         assert app.desk.message == "no solution for these pins"
         np.testing.assert_array_equal(app.session.pose.weights, weights)

@@ -20,7 +20,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.events import CloseRequested, FilesDropped, PointerMoved
 from facepin.files.work.drafts import leftovers
 from facepin.files.work.scene_file import Scene, read_scene
-from facepin.frame import interface
+from facepin.frame import bars
 from facepin.panels.commands import Command
 from facepin.panels.help.guide import Guide
 from facepin.panels.requests import AddPane, CancelLoading, DiscardWork, OpenPath, RestoreWork
@@ -294,11 +294,11 @@ def test_a_fault_in_a_frame_keeps_the_work(
 ) -> None:
     with pytest.raises(ZeroDivisionError), small(rig, settings_folder=tmp_path) as app:
         app.desk.apply(Edit("Set", True, weights=np.array([0.125, 1e-17, 0.5, 0.0])))
-        monkeypatch.setattr("facepin.frame.interface.panels", lambda *_: 1 // 0)
+        monkeypatch.setattr("facepin.main_loop.panels", lambda *_: 1 // 0)
         app.step(PointerMoved(5, 5))
     (leftover,), _ = leftovers(tmp_path / "autosave")
     assert step_of(leftover.scene) == 0.125
-    assert "2 active" in interface._work_row(leftover).about, "as the panel counts them"
+    assert "2 active" in bars._work_row(leftover).about, "as the panel counts them"
 
 
 def test_a_scene_whose_rig_is_gone_waits_until_it_is_shown(rig: Path, tmp_path: Path) -> None:

@@ -1,7 +1,6 @@
 """What lies on the desk: the open rig, cameras on it, files being opened or asked for."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import moderngl
@@ -14,6 +13,7 @@ from facepin.desk.keeping import Keeper
 from facepin.desk.library import Library, library_of
 from facepin.desk.opening import Begun, Opener, Opening, SceneOpening
 from facepin.desk.portraits import Portraits
+from facepin.desk.questions import Question, Questions
 from facepin.desk.scenes import Snapshot, shown_over
 from facepin.desk.stage import Stage
 from facepin.panels.commands import Command
@@ -95,9 +95,8 @@ class Desk:
         self.chart_writer = chart_writer
         self._ctx = ctx
         self._choices = choices
-        self._native = native_dialogs
+        self._questions = Questions(native=native_dialogs)
         self._settings = settings
-        self._question: _Question | None = None
         self._open: Opening | None = None
         """How what is open was opened."""
         self._numbers = [0]
@@ -149,7 +148,7 @@ class Desk:
     @property
     def dialog(self) -> FileDialog | None:
         """The dialog that waits for an answer, if any."""
-        return self._question.dialog if self._question else None
+        return self._questions.dialog
 
     @property
     def folder(self) -> Path:
@@ -165,8 +164,8 @@ class Desk:
         with self.reporting():
             if (found := self.opener.take()) is not None:
                 self._show(*found)
-        if self._question is not None and self._question.dialog.finished:
-            self._take_answer(self._question)
+        if (question := self._questions.take()) is not None and question.dialog.path is not None:
+            self._answer(question, question.dialog.path)
         if (job := self.job) is not None:
             self.job = None  # unless it goes on
             with self.reporting():
@@ -176,23 +175,17 @@ class Desk:
                 else:
                     self.say(came_of_it)
 
-    def _take_answer(self, question: "_Question") -> None:
+    def _answer(self, question: Question, path: Path) -> None:
         """Do what the question was asked for; ask once more for a path that is no good."""
-        self._question = None
-        dialog = question.dialog
-        if dialog.path is None:
-            return
         if question.saves and self.session is not question.session:
             self.say("Another face was opened meanwhile, so nothing was saved: save it anew", error=True)
             return
         self.say("")
         with self.reporting():
-            question.then(dialog.path)
+            question.then(path)
         # Of a scene whose rig is missing a card tells, which asks for the rig.
-        bad = self.is_error and self.opener.lost is None
-        if bad and self._question is None and dialog.can_ask_again:
-            dialog.ask_again(self.message)
-            self._question = question
+        if self.is_error and self.opener.lost is None:
+            self._questions.ask_again(question, self.message)
 
     def start(self, job: Job) -> None:
         """Begin something long; `poll` takes its steps.
@@ -257,8 +250,7 @@ class Desk:
     def release(self) -> None:
         """Give everything back."""
         self.opener.cancel()
-        if self._question is not None:
-            self._question.dialog.close()
+        self._questions.close()
         self._put_away()
 
     def _put_away(self) -> None:
@@ -353,10 +345,7 @@ class Desk:
         FacepinError
             When another question is still open.
         """
-        if self._question is not None:
-            raise FacepinError("another question for a file waits for its answer")
-        dialog = FileDialog(kind, command.title.rstrip("…"), start, filters, use_native=self._native)
-        self._question = _Question(dialog, then, kind == "save file", self.session)
+        self._questions.ask(kind, command, start, filters, then, self.session)
 
     def sync(self) -> None:
         """Let what depends on the work follow it: selected pins, the library's files, the panes' looks.
@@ -384,19 +373,6 @@ class Desk:
     def reporting(self) -> "_Reporting":
         """Show what goes wrong inside a `with` block in the status line; bugs pass through."""
         return _Reporting(self)
-
-
-@dataclass(frozen=True, eq=False)
-class _Question:
-    """A question for a path that waits for its answer."""
-
-    dialog: FileDialog
-    then: Callable[[Path], None]
-    """What the answer is for."""
-    saves: bool
-    """The answer is where to write what was open."""
-    session: Session | None
-    """What was open."""
 
 
 class _Reporting:

@@ -8,7 +8,8 @@ from facepin.desk.scenes import Snapshot, scene_of
 from facepin.files.work.drafts import Draft, Leftover, leftovers
 from facepin.files.work.scene_file import scene_bytes, write_scene
 from facepin.session.autosave import Autosave
-from facepin.session.session import Session, Work
+from facepin.session.session import Session
+from facepin.session.work import Work
 
 
 class Keeper:

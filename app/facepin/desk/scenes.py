@@ -21,8 +21,8 @@ from facepin.files.work.pins_file import parse_pins, pins_as_json
 from facepin.files.work.scene_file import RigReference, Scene, SceneControl, ScenePane, Weights
 from facepin.files.work.shape_spelling import match_shapes
 from facepin.panels.view import PaneView
-from facepin.session.session import MOST_PANES, Pane, Work
 from facepin.session.solving.solving import SolverChoice, choose, snapped
+from facepin.session.work import MOST_PANES, Pane, Work
 from facepin.solvers import SOLVERS
 from facepin.solvers.settings import Plain, make_settings, plain_settings
 

@@ -32,7 +32,8 @@ from facepin.panels.view import Ghost, PaneView
 from facepin.session.appraisal import Appraisal, Appraiser
 from facepin.session.hand.drag import DragTool
 from facepin.session.heat import HeatGauge
-from facepin.session.session import Pane, Session, Work
+from facepin.session.session import Session
+from facepin.session.work import Pane, Work
 
 
 @dataclass(eq=False)

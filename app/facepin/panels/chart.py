@@ -15,7 +15,7 @@ from facepin.core.shapes.measures import e_rms, weight_errors
 from facepin.panels.commands import Command
 from facepin.panels.theme import Colour, Theme, pane_colours
 from facepin.panels.tiles import shortened
-from facepin.session.session import Pane
+from facepin.session.work import Pane
 
 TITLE = "Chart"
 SIZE = (400.0, 520.0)

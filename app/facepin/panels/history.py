@@ -9,7 +9,7 @@ from facepin.core.rig import Rig
 from facepin.panels.requests import GoToStep
 from facepin.panels.theme import Theme
 from facepin.session.history import Step
-from facepin.session.session import Work
+from facepin.session.work import Work
 
 TITLE = "History"
 SIZE = (290.0, 330.0)

@@ -14,8 +14,9 @@ from facepin.panels.requests import AddPane, Choose, ClosePane, KeepPane, OpenPa
 from facepin.panels.view import CHOICES, View
 from facepin.resources import builtin_faces
 from facepin.session.reference import RANDOM_SHAPES
-from facepin.session.session import MOST_PANES, Session
+from facepin.session.session import Session
 from facepin.session.solving.solving import choose
+from facepin.session.work import MOST_PANES
 from facepin.solvers import SOLVERS
 
 POSES_MENU = (

@@ -10,7 +10,7 @@ from facepin.core.control import ShapeControl
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
 from facepin.core.shapes import measures
-from facepin.session.session import Pane
+from facepin.session.work import Pane
 
 NEAR_PINS = 0.15
 """Without a reference pose, what is further from every pin than this share of the face height should rest."""

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from facepin.core.pose import Pose, hold_alike
-from facepin.session.session import Session, Work
+from facepin.session.session import Session
+from facepin.session.work import Work
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from facepin.core.mesh.geodesic import geodesic_distances
 from facepin.core.rig import Rig
 from facepin.core.shapes.measures import moves
 from facepin.core.shapes.motion import shape_moves
-from facepin.session.session import Pane
+from facepin.session.work import Pane
 
 
 class HeatGauge:

@@ -1,7 +1,7 @@
 """One open rig being posed: its panes, the undo history, and the solving of every edit."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import count
 
@@ -11,52 +11,16 @@ from facepin.core.arrays import Floats, frozen
 from facepin.core.control import ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.names import listed
-from facepin.core.pose import Pin, Pose, hold_alike, rest_pose
+from facepin.core.pose import Pose, hold_alike, rest_pose
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.core.shapes.mirror import Mirror, find_mirror
 from facepin.session.edit import Edit
 from facepin.session.history import History, Step
 from facepin.session.shelf import Shelf
-from facepin.session.solving.press import Begun, Press, begin, grabbed, press
-from facepin.session.solving.solving import PinSolver, Solved, SolverChoice, snapped
-
-MOST_PANES = 4
-
-
-@dataclass(frozen=True, eq=False)
-class Pane:
-    """One solver at work: what it is, and the pose it led to.  All panes of a session share their pins."""
-
-    choice: SolverChoice
-    pose: Pose
-    hand: Floats
-    """Weights last made otherwise than by dragging: where solvers start that take all pins afresh."""
-    began: Pose | None = None
-    """The pose before the drag that led here, so that another solver can be asked for the same drag."""
-    solved: Solved | None = None
-    """The solver's answer, None where the pose is not the solver's."""
-    number: int = 0
-    """Stays the same as long as the pane is there, and comes back with it."""
-
-    def by_hand(self, pose: Pose) -> "Pane":
-        """Return the pane with a pose that no solver made."""
-        return Pane(self.choice, pose, pose.weights, number=self.number)
-
-
-@dataclass(frozen=True, eq=False)
-class Work:
-    """What undo brings back."""
-
-    panes: tuple[Pane, ...]
-    control: ShapeControl
-    """What holds for the shapes, in all panes."""
-    mirror: Mirror | None = None
-    """Who is whose twin, where the user has said so."""
-    reference: Floats | None = None
-    """Weights (k,) that the panes are measured against (Figure 4a of the paper), if any."""
-    shelf: Shelf = field(default_factory=dict)
-    """What was done to poses of the library, see `facepin.session.shelf`."""
+from facepin.session.solving.panes import PaneSolvers
+from facepin.session.solving.solving import SolverChoice, snapped
+from facepin.session.work import MOST_PANES, Pane, Work
 
 
 class Session:
@@ -78,9 +42,7 @@ class Session:
         self._preview: Work | None = None
         self._preview_label = ""
         self._active = 0
-        self._solvers: dict[tuple[int, SolverChoice, ShapeControl], PinSolver] = {}
-        self._begun: tuple[tuple[Work, Pose, tuple[int, ...], frozenset[int]], Begun] | None = None
-        """Where the drag in progress began, and which it is."""
+        self._solvers = PaneSolvers(rig)
 
     @classmethod
     def resumed(cls, rig: Rig, work: Work, active: int = 0) -> "Session":
@@ -181,15 +143,21 @@ class Session:
     def choose_solver(self, at: int, choice: SolverChoice, *, final: bool = True) -> None:
         """Give a pane another solver or other settings.
 
-        If the last step was a drag, it is solved again from where it began: the difference is seen at once.
-        What is there already is no step.
+        Another solver takes over with the next drag: choosing one moves nothing.  In a comparison it shows
+        the drag that all panes show, if that was the last step; so does the same solver with other settings,
+        whose effect is to be seen while they are slid.  What is there already is no step.
         """
         self.message = ""
         before = self._history.current
-        if choice == before.panes[at].choice:
+        pane = before.panes[at]
+        if choice == pane.choice:
             self._preview = None
             return
-        panes = (*before.panes[:at], self._with_solver(at, before.panes[at], choice), *before.panes[at + 1 :])
+        if choice.kind is pane.choice.kind or len(before.panes) > 1:
+            chosen = self._solved_by(at, pane, choice)
+        else:
+            chosen = replace(pane, choice=choice, began=None, solved=None)
+        panes = (*before.panes[:at], chosen, *before.panes[at + 1 :])
         self._show(f"Solve with {choice.kind.title}", replace(before, panes=panes), final=final)
 
     def add_pane(self, choice: SolverChoice) -> None:
@@ -205,7 +173,7 @@ class Session:
             raise FacepinError(f"{MOST_PANES} panes are open already, no more fit")
         at = len(before.panes)
         new = replace(before.panes[self.active], number=next(self._numbers))
-        pane = self._with_solver(at, new, choice)
+        pane = self._solved_by(at, new, choice)
         self._show("Add a pane", replace(before, panes=(*before.panes, pane)), final=True)
         self._active = at
 
@@ -356,7 +324,8 @@ class Session:
             poses[self.active] = pose
             return tuple(pane.by_hand(pose) for pane, pose in zip(panes, poses, strict=True))
         if edit.solve:
-            return self._dragged(before, pins)
+            dragged, self.message = self._solvers.drag(before, self._active, pins, self.panes)
+            return dragged
         if hold_alike(
             pins, panes[0].pose.pins
         ):  # the last drag is still what another solver can be asked for
@@ -369,84 +338,17 @@ class Session:
         pins = snapped(self.rig, poses[self.active], control).pins
         return tuple(pane.by_hand(pose.with_pins(pins)) for pane, pose in zip(panes, poses, strict=True))
 
+    def _solved_by(self, at: int, pane: Pane, choice: SolverChoice) -> Pane:
+        """Return a pane with its last drag, if it was the last step, solved in another way."""
+        chosen = replace(pane, choice=choice, solved=None)
+        try:
+            return self._solvers.again(at, chosen, self._history.current.control)
+        except FacepinError as error:
+            self.message = str(error)
+            return chosen
+
     def _tell_locks(self, work: Work, weights: Floats) -> None:
         """Say in `message` which locks keep the active pane from these weights (k,), if any do."""
         broken = np.flatnonzero(work.control.breaks_lock(weights, work.panes[self.active].pose.weights))
         names = listed([self.rig.shape_names[j] for j in broken])
         self.message = f"{names} {'is' if len(broken) == 1 else 'are'} locked" if names else ""
-
-    def _dragged(self, before: Work, pins: tuple[Pin, ...]) -> tuple[Pane, ...]:
-        """Return the panes solved for moved pins; where one of several solvers fails, its weights stay.
-
-        Raises
-        ------
-        FacepinError
-            When all of them fail.
-        """
-        begun = self._pressed(before, pins)
-        pins = begun.shown(pins)
-        dragged: list[Pane] = []
-        failures: list[FacepinError] = []
-        for at, (pane, start) in enumerate(zip(before.panes, begun.presses, strict=True)):
-            try:
-                dragged.append(self._solve(at, pane, start, pins))
-            except FacepinError as error:
-                failures.append(error)
-                kept = self.panes[at].pose if len(self.panes) == len(before.panes) else pane.pose
-                dragged.append(replace(pane, pose=kept.with_pins(pins), began=start.pose, solved=None))
-        if len(failures) == len(before.panes):
-            raise failures[0]
-        self.message = str(failures[0]) if failures else ""
-        return tuple(dragged)
-
-    def _pressed(self, before: Work, pins: tuple[Pin, ...]) -> Begun:
-        """Return where the drag began in each pane; the same for all its frames."""
-        vertices = tuple(pin.vertex for pin in pins)
-        active = before.panes[min(self._active, len(before.panes) - 1)].pose
-        key = before, active, vertices, grabbed(active.pins, pins)
-        if self._begun is None or self._begun[0] != key:
-            snaps = not any(pane.choice.kind.afresh for pane in before.panes)
-            begun = begin(
-                self.rig,
-                before.control,
-                active,
-                [(pane.pose, pane.began) for pane in before.panes],
-                pins,
-                snaps=snaps,
-            )
-            self._begun = key, begun
-        return self._begun[1]
-
-    def _with_solver(self, at: int, pane: Pane, choice: SolverChoice) -> Pane:
-        """Return a pane with its last drag, if it was the last step, solved in another way."""
-        chosen = replace(pane, choice=choice, solved=None)
-        if pane.began is None or len(pane.began.pins) != len(pane.pose.pins):
-            return chosen
-        try:
-            begun = press(self.rig, self._history.current.control, pane.began)
-            return self._solve(at, chosen, begun, pane.pose.pins)
-        except FacepinError as error:
-            self.message = str(error)
-            return chosen
-
-    def _solve(self, at: int, pane: Pane, start: Press, pins: tuple[Pin, ...]) -> Pane:
-        """Return a pane with its weights carried towards its pins."""
-        control = self._history.current.control
-        solver = self._solvers.get((at, pane.choice, control))
-        if solver is None:
-            if len(self._solvers) >= 4 * MOST_PANES:  # a setting that is being slid leaves a trail
-                self._solvers.clear()
-            solver = self._solvers[at, pane.choice, control] = PinSolver(self.rig, pane.choice, control)
-        weights, pulled = start.pose.weights, start.pulled(pins)
-        if pane.choice.kind.afresh:
-            weights, pulled = pane.hand, pins
-        if control.held.any():  # a shape may have been locked after the weights that the solver starts from
-            weights = np.where(control.held, pane.pose.weights, weights)
-        solved = solver.solve(pulled, weights, grabbed(start.pose.pins, pins))
-        largest = float(np.abs(solved.weights).max(initial=0.0))
-        if largest > LARGEST_WEIGHT:  # it could not be saved
-            raise FacepinError(
-                f"{pane.choice.kind.title} gave a weight of {largest:.0e}, allowed are {LARGEST_WEIGHT:.0e}"
-            )
-        pose = start.pose.with_weights(solved.weights).with_pins(pins)
-        return replace(pane, pose=pose, began=start.pose, solved=solved)

@@ -28,8 +28,9 @@ from facepin.panels.theme import Theme, dim_sentence, packed
 from facepin.panels.view import CHOICES, PaletteView, View
 from facepin.resources import builtin_faces
 from facepin.session.reference import RANDOM_SHAPES
-from facepin.session.session import MOST_PANES, Session
+from facepin.session.session import Session
 from facepin.session.solving.solving import choose
+from facepin.session.work import MOST_PANES
 from facepin.solvers import SOLVERS
 
 ROWS = 11

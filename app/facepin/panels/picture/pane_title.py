@@ -17,8 +17,8 @@ from facepin.panels.tiles import shortened
 from facepin.panels.view import PaneView
 from facepin.session.appraisal import Appraisal
 from facepin.session.navigation import Habit
-from facepin.session.session import Pane
 from facepin.session.solving.solving import SolverChoice
+from facepin.session.work import Pane
 from facepin.solvers import SOLVERS
 
 LOW = 28.0

@@ -16,8 +16,8 @@ from facepin.panels.solving.trade import trade_slider
 from facepin.panels.theme import Theme, dim_sentence
 from facepin.panels.tiles import shortened
 from facepin.panels.view import PaneView
-from facepin.session.session import Pane
 from facepin.session.solving.solving import Solved, SolverChoice
+from facepin.session.work import Pane
 from facepin.solvers import SOLVERS
 
 HUGE = 10.0

@@ -18,7 +18,7 @@ from facepin.panels.weights.menu import Twins, group_menu, row_menu
 from facepin.panels.weights.painter import Painter, inks
 from facepin.panels.weights.typing_field import typing_field
 from facepin.panels.weights.view import WeightsView
-from facepin.session.session import Pane
+from facepin.session.work import Pane
 
 
 def weights_panel(

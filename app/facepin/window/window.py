@@ -4,23 +4,19 @@ Without a display the same class opens on glfw's null platform: a real context, 
 """
 
 import ctypes
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-# glfw must come after imgui_bundle: the two then share one GLFW library, and imgui's compiled backend can be
-# given the address of a window that pyGLFW made.
-from imgui_bundle import imgui, implot  # isort: skip
 import glfw
 import moderngl
 import numpy as np
+from imgui_bundle import imgui, implot
 from numpy.typing import NDArray
 
 from facepin.core.errors import FacepinError
 from facepin.core.events import (
-    Button,
     CloseRequested,
     Event,
     FilesDropped,
@@ -33,35 +29,8 @@ from facepin.core.events import (
     Scrolled,
     Stirred,
 )
-
-_BUTTONS: dict[int, Button] = {
-    glfw.MOUSE_BUTTON_LEFT: "left",
-    glfw.MOUSE_BUTTON_RIGHT: "right",
-    glfw.MOUSE_BUTTON_MIDDLE: "middle",
-}
-_KEYS = {
-    glfw.KEY_ESCAPE: "escape",
-    glfw.KEY_DELETE: "delete",
-    glfw.KEY_BACKSPACE: "backspace",
-    glfw.KEY_HOME: "home",
-    glfw.KEY_TAB: "tab",
-    glfw.KEY_KP_DECIMAL: "numpad .",
-    glfw.KEY_LEFT: "left",
-    glfw.KEY_RIGHT: "right",
-    glfw.KEY_UP: "up",
-    glfw.KEY_DOWN: "down",
-    glfw.KEY_PAGE_UP: "page up",
-    glfw.KEY_PAGE_DOWN: "page down",
-    **{glfw.KEY_F1 + i: f"f{i + 1}" for i in range(12)},
-    **{glfw.KEY_KP_0 + i: f"numpad {i}" for i in range(10)},
-    **{glfw.KEY_0 + i: str(i) for i in range(10)},
-    **{glfw.KEY_A + i: chr(ord("a") + i) for i in range(26)},
-}
-_MOVING = ("left", "right", "up", "down", "page up", "page down")
-_HELD = ("x", "y", *_MOVING)
-"""Keys whose release is told, too: what they do goes on until then."""
-_REPEATED = ("z", "y", *_MOVING)
-"""Keys that go on while they are held: undo and redo, and those that move something."""
+from facepin.window.context import Complaints, Loader, Screen, create
+from facepin.window.keys import BUTTONS, HELD, KEYS, REPEATED
 
 
 class NoDisplay(FacepinError):
@@ -97,16 +66,16 @@ class Window:
         self._events: list[Event] = []
         if windowless:
             glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
-        with _Complaints() as complaints:
+        with Complaints() as complaints:
             if not glfw.init():
                 raise NoDisplay(f"no display was found ({complaints})")
-            self._handle: Any = _create(title, size, windowless)
+            self._handle: Any = create(title, size, windowless)
             if not self._handle:
                 glfw.terminate()
                 raise FacepinError(f"no window with OpenGL 3.3 could be opened ({complaints})")
         glfw.make_context_current(self._handle)
-        self.ctx = moderngl.create_context(context=_Loader())  # type: ignore[arg-type]  # its stub wants a dict
-        self._gl = _Screen()
+        self.ctx = moderngl.create_context(context=Loader())  # type: ignore[arg-type]  # its stub wants a dict
+        self._gl = Screen()
         glfw.swap_interval(0 if windowless else 1)
         self._forced_scale = scale
         # Where the last event left the mouse.  Asking in a callback would tell where it is by now: after a
@@ -176,7 +145,7 @@ class Window:
         from PIL import Image
 
         pictures = [Image.open(path).convert("RGBA") for path in paths]
-        with _Complaints():
+        with Complaints():
             glfw.set_window_icon(self._handle, len(pictures), pictures)
 
     def poll(self, wait: float | None = None) -> list[Event]:
@@ -206,7 +175,7 @@ class Window:
                         address, x / self.pixel_ratio, y / self.pixel_ratio
                     )
                 case PointerPressed(button=button) | PointerReleased(button=button):
-                    code = next(code for code, name in _BUTTONS.items() if name == button)
+                    code = next(code for code, name in BUTTONS.items() if name == button)
                     action = glfw.PRESS if isinstance(event, PointerPressed) else glfw.RELEASE
                     imgui.backends.glfw_mouse_button_callback(address, code, action, 0)
                 case Scrolled(steps=steps):
@@ -280,13 +249,13 @@ class Window:
         self._events.append(PointerMoved(*self._cursor, self._modifiers()))
 
     def _on_button(self, _: object, button: int, action: int, __: int) -> None:
-        if button not in _BUTTONS:
+        if button not in BUTTONS:
             return
         x, y = self._cursor
         if action == glfw.PRESS:
-            self._events.append(PointerPressed(x, y, _BUTTONS[button], self._modifiers()))
+            self._events.append(PointerPressed(x, y, BUTTONS[button], self._modifiers()))
         else:
-            self._events.append(PointerReleased(x, y, _BUTTONS[button]))
+            self._events.append(PointerReleased(x, y, BUTTONS[button]))
 
     def _on_scroll(self, _: object, __: float, steps: float) -> None:
         x, y = self._cursor
@@ -295,16 +264,16 @@ class Window:
     def _on_key(self, _: object, key: int, scancode: int, action: int, __: int) -> None:
         # A panel may wait for any key to go down, to repeat or to go up: imgui knows which.
         self._events.append(Stirred())
-        name = _KEYS.get(key)
+        name = KEYS.get(key)
         if glfw.KEY_A <= key <= glfw.KEY_Z:
             # What the keyboard's own layout writes there: Ctrl+Z is where the user's Z is.
             written = glfw.get_key_name(key, scancode)
             name = written.lower() if written and written.isascii() and written.isalpha() else name
         if action == glfw.RELEASE:
-            if name in _HELD:
+            if name in HELD:
                 self._events.append(KeyReleased(name))
             return
-        if action == glfw.REPEAT and name not in _REPEATED:
+        if action == glfw.REPEAT and name not in REPEATED:
             return  # a picture is not saved thirty times a second because F12 was held
         if name is not None:
             self._events.append(KeyPressed(name, self._modifiers()))
@@ -323,114 +292,3 @@ class Window:
         # Whether the window really closes is decided by who reads the event.
         glfw.set_window_should_close(handle, False)
         self._events.append(CloseRequested())
-
-
-class _Loader:
-    """Gives moderngl the OpenGL functions of glfw's current context, on every platform alike."""
-
-    def load_opengl_function(self, name: str) -> int:
-        return ctypes.cast(glfw.get_proc_address(name), ctypes.c_void_p).value or 0
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        pass
-
-    def release(self) -> None:
-        """Leave the context alone: the window owns it."""
-
-
-class _Screen:
-    """The window's own framebuffer.  moderngl takes it to be as large for ever as it was at the start."""
-
-    def __init__(self) -> None:
-        integer, unsigned, pointer = ctypes.c_int, ctypes.c_uint, ctypes.c_void_p
-        self._bind = _function("glBindFramebuffer", unsigned, unsigned)
-        self._blit = _function("glBlitFramebuffer", *[integer] * 8, unsigned, unsigned)
-        self._disable = _function("glDisable", unsigned)
-        self._bind_texture = _function("glBindTexture", unsigned, unsigned)
-        self._store = _function("glTexImage2D", unsigned, *[integer] * 5, unsigned, unsigned, pointer)
-        self._clear_colour = _function("glClearColor", *[ctypes.c_float] * 4)
-        self._clear = _function("glClear", unsigned)
-        self._pack = _function("glPixelStorei", unsigned, integer)
-        self._read = _function("glReadPixels", *[integer] * 4, unsigned, unsigned, pointer)
-
-    def fill(self, colour: tuple[float, float, float, float]) -> None:
-        """Fill the window."""
-        self._bind(_FRAMEBUFFER, 0)
-        self._disable(_SCISSOR_TEST)
-        self._clear_colour(*colour)
-        self._clear(_COLOR_BUFFER_BIT)
-
-    def copy_to_screen(self, source: int, size: tuple[int, int]) -> None:
-        """Copy the colours of a framebuffer, its first row to the top of the window."""
-        width, height = size
-        self._bind(_READ_FRAMEBUFFER, source)
-        self._bind(_DRAW_FRAMEBUFFER, 0)
-        self._disable(_SCISSOR_TEST)
-        self._blit(0, height, width, 0, 0, 0, width, height, _COLOR_BUFFER_BIT, _NEAREST)
-        self._bind(_FRAMEBUFFER, 0)
-
-    def store_as_screens_do(self, texture: int, size: tuple[int, int]) -> None:
-        """Give an RGBA texture storage whose bytes are blue, green, red, alpha."""
-        self._bind_texture(_TEXTURE_2D, texture)
-        # A format without sizes lets the driver follow the order of the bytes that are announced.
-        self._store(_TEXTURE_2D, 0, _RGBA, *size, 0, _BGRA, _UNSIGNED_INT_8_8_8_8_REV, None)
-
-    def read_screen(self, width: int, height: int) -> NDArray[np.uint8]:
-        """Return the colours of the window, (h, w, 3) uint8, first row on top."""
-        pixels = np.zeros((height, width, 3), np.uint8)
-        self._bind(_FRAMEBUFFER, 0)
-        self._pack(_PACK_ALIGNMENT, 1)
-        self._read(0, 0, width, height, _RGB, _UNSIGNED_BYTE, pixels.ctypes.data)
-        return pixels[::-1]
-
-
-_FRAMEBUFFER, _READ_FRAMEBUFFER, _DRAW_FRAMEBUFFER = 0x8D40, 0x8CA8, 0x8CA9
-_COLOR_BUFFER_BIT, _NEAREST, _SCISSOR_TEST = 0x4000, 0x2600, 0x0C11
-_TEXTURE_2D, _RGBA, _BGRA, _UNSIGNED_INT_8_8_8_8_REV = 0x0DE1, 0x1908, 0x80E1, 0x8367
-_PACK_ALIGNMENT, _RGB, _UNSIGNED_BYTE = 0x0D05, 0x1907, 0x1401
-
-
-def _function(name: str, *arguments: type) -> Callable[..., None]:
-    """Return a function of OpenGL by name."""
-    address = ctypes.cast(glfw.get_proc_address(name), ctypes.c_void_p).value
-    if not address:
-        raise FacepinError(f"OpenGL on this machine has no {name}; 3.3 is needed")
-    found: Callable[..., None] = ctypes.CFUNCTYPE(None, *arguments)(address)
-    return found
-
-
-class _Complaints:
-    """Keeps glfw from printing its complaints inside a `with` block; the last one can be told as a reason."""
-
-    def __enter__(self) -> Self:
-        self._before = glfw.ERROR_REPORTING
-        glfw.ERROR_REPORTING = "ignore"
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        glfw.ERROR_REPORTING = self._before
-
-    def __str__(self) -> str:
-        _, text = glfw.get_error()
-        return str(text.decode(errors="replace")) if text else "glfw gives no reason"
-
-
-def _create(title: str, size: tuple[int, int], windowless: bool) -> Any:
-    glfw.default_window_hints()
-    glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, 3)
-    glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, 3)
-    glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
-    glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
-    glfw.window_hint(glfw.SCALE_TO_MONITOR, True)
-    if windowless:
-        glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
-    elif (monitor := glfw.get_primary_monitor()) is not None:
-        # The screen may be another one than that for which the size was good.
-        _, _, width, height = glfw.get_monitor_workarea(monitor)
-        scale = 1.0 if sys.platform == "darwin" else glfw.get_monitor_content_scale(monitor)[0]
-        if width and height:
-            size = (min(size[0], int(width / scale)), min(size[1], int(height / scale)))
-    return glfw.create_window(*size, title, None, None)

@@ -1,0 +1,44 @@
+"""What floats over the top of the picture: history, a tidied pose, a missing rig."""
+
+from facepin.core.look.camera import Viewport
+from facepin.core.shapes.measures import moves, percent
+from facepin.desk.desk import Desk
+from facepin.panels import layout
+from facepin.panels.history import TITLE as HISTORY
+from facepin.panels.history import history_window
+from facepin.panels.recovery import lost_card
+from facepin.panels.requests import Request
+from facepin.panels.solving.tidy import LABEL, Tidied, tidy_card
+
+
+def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
+    """Draw what floats at the top of the picture, face or no face: history, a missing rig."""
+    place = (viewport.x / pixel_ratio, viewport.y / pixel_ratio)
+    width = viewport.width / pixel_ratio
+    session, view = desk.session, desk.view
+    asked: list[Request | None] = []
+    if view.history and session is not None:
+        steps, step = session.steps, session.step
+        view.beside.in_front_of(layout.WEIGHTS, HISTORY)
+        view.history, wanted = history_window(session.rig, steps, step, scale, view.theme)
+        asked.append(wanted)
+    if view.tidy is not None:
+        asked.append(_tidy(desk, view.tidy, place, scale))
+    if desk.opener.lost is not None:
+        asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
+    return [request for request in asked if request is not None]
+
+
+def _tidy(desk: Desk, tolerance: float, place: tuple[float, float], scale: float) -> Request | None:
+    """Draw the card of a tidied pose, as long as that is what is shown."""
+    session, stage = desk.session, desk.stage
+    if session is None or stage is None or not session.in_gesture or session.undo_label != LABEL:
+        desk.view.tidy = None
+        return None
+    pane, rig = session.active, session.rig
+    before, after = session.committed.panes[pane].pose, session.panes[pane].pose
+    was, now = (rig.evaluate(session.control.heard(pose.weights)) for pose in (before, after))
+    vertices = [pin.vertex for pin in before.pins] or slice(None)
+    moved = percent(float(moves(now[vertices], was[vertices]).max(initial=0.0)), rig.height)
+    told = Tidied(before.weights, after.weights, moved, len(before.pins))
+    return tidy_card(told, tolerance, *place, scale, desk.view.theme)

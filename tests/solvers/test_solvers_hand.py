@@ -121,6 +121,20 @@ class Face:
         return [self.rig.shape_names[j] for j in np.argsort(-weights) if weights[j] > 0.05]
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_forces_of_hands_on_soft_shapes_turn_until_they_balance(seed: int) -> None:
+    """A little turn of a full force changes much here: what only follows the miss goes round in circles."""
+    random = np.random.default_rng(seed)
+    shapes, pins = 12, int(random.integers(1, 5))
+    rows = random.normal(size=(3 * pins, shapes)) * random.choice([0.05, 1.0], shapes)
+    starts, free = np.arange(0, 3 * pins, 3), np.zeros(pins, np.bool_)
+    pulls = Pulls(rows, starts, random.uniform(0.3, 1.0, pins), np.full(pins, 0.05), free)
+    price = random.uniform(0.06, 0.9, shapes) * np.abs(rows).max(axis=0)
+    springs = Springs(price, price, np.full(shapes, 0.01), np.zeros(shapes), np.ones(shapes))
+    wanted = random.normal(size=3 * pins) * np.repeat(random.choice([0.0, 0.3, 1.0], pins), 3)
+    assert balance(pulls, springs, wanted, np.zeros(3 * pins)).gap <= 1e-9
+
+
 def test_a_press_moves_nothing_and_so_does_coming_back(ada: Rig) -> None:
     face = Face(ada)
     start = np.zeros(ada.shape_count)

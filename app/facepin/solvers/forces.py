@@ -14,8 +14,9 @@ It is solved for the forces y (r,).  A shape answers to the work that forces do 
 This is the paper's transposition w = Jᵀ m (Eq. 6 and 7) with forces for m and with a price, a spring and
 a stop at every shape; what is looked for are the forces that are in balance with what the pins then miss.
 They are the maximum of a concave function of as many numbers as there are rows, two or three for a pin,
-however many shapes there are.  Newton's method with an active set finds it in a few steps, from the last
-frame's forces in one or two.
+however many shapes there are.  Newton's method with an active set finds it in a few steps: a pull at its full
+force κ stays on the sphere of its directions, and how far to go is where the slope along the step ends, which
+is cheap to know since every shape's answer is a line in pieces.
 """
 
 from dataclasses import dataclass
@@ -30,6 +31,12 @@ TOLERANCE = 1e-12
 MOST_STEPS = 200
 LEAST_STEP = 1e-3
 """Share of a Newton step below which going on that way is given up."""
+FLAT = 0.05
+"""Share of the slope at the beginning of a step that is flat enough to end it."""
+MOST_LOOKS = 8
+"""Places along a step that are looked at."""
+FULL = 1.0 - 1e-9
+"""Share of its full force from which on a pull is taken to have it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +56,19 @@ class Springs:
 
     def answer(self, work: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Return the changes x (k,) for the work g (k,) along each shape, and which are free to move."""
-        wanted = (
-            np.maximum(work - self.raising, 0.0) - np.maximum(-work - self.lowering, 0.0)
-        ) / self.stiffness
+        wanted = self._wanted(work)
         change = np.minimum(np.maximum(wanted, self.low), self.high)
         return change, (change == wanted) & (wanted != 0.0)
+
+    def change(self, work: Floats) -> Floats:
+        """Return the changes x (k,) alone."""
+        return np.minimum(np.maximum(self._wanted(work), self.low), self.high)
+
+    def _wanted(self, work: Floats) -> Floats:
+        """Return what shapes would do without their limits: nothing until the work is worth the price."""
+        idle = np.minimum(np.maximum(work, -self.lowering), self.raising)
+        wanted: Floats = (work - idle) / self.stiffness
+        return wanted
 
     def cost(self, change: Floats) -> float:
         """Return what a change (k,) costs."""
@@ -121,12 +136,16 @@ def balance(pulls: Pulls, springs: Springs, wanted: Floats, guess: Floats) -> Ba
 @dataclass(frozen=True, eq=False)
 class _State:
     forces: Floats
+    work: Floats
+    """g = Kᵀ y (k,)"""
     value: float
     """Of the dual objective."""
     change: Floats
     free: NDArray[np.bool_]
     missing: Floats
     """b - K x (r,)"""
+    slope: Floats
+    """Of the dual objective, (r,)."""
     cost: float
 
 
@@ -136,18 +155,24 @@ class _Problem:
     def __init__(self, pulls: Pulls, springs: Springs, wanted: Floats) -> None:
         self._pulls, self._springs, self._wanted = pulls, springs, wanted
         sizes = np.diff(np.append(pulls.starts, len(wanted)))
-        self._sizes = sizes
         self._group = np.repeat(np.arange(len(sizes)), sizes)
         self._damping = (pulls.slacks / pulls.strengths)[self._group]
         self._one_sided = pulls.one_sided[self._group]
         self._supple = pulls.rows / springs.stiffness
+        single = np.flatnonzero(sizes == 1)
+        self._single = pulls.starts[single]
+        self._highest = pulls.strengths[single]
+        self._lowest = np.where(pulls.one_sided[single], 0.0, -self._highest)
+        self._round = [(size, np.flatnonzero(sizes == size)) for size in (2, 3) if np.any(sizes == size)]
 
     def state(self, forces: Floats) -> _State:
         """Evaluate the dual objective, b·y - Σ δ|y|²/2κ - Σ φ*(g)."""
-        change, free = self._springs.answer(forces @ self._pulls.rows)
+        work = forces @ self._pulls.rows
+        change, free = self._springs.answer(work)
         missing, cost = self.missing(change), self._springs.cost(change)
-        value = float(forces @ (missing - 0.5 * self._damping * forces)) + cost
-        return _State(forces, value, change, free, missing, cost)
+        damped = self._damping * forces
+        value = float(forces @ (missing - 0.5 * damped)) + cost
+        return _State(forces, work, value, change, free, missing, missing - damped, cost)
 
     def missing(self, change: Floats) -> Floats:
         """Return what the rows miss, b - K x (r,)."""
@@ -158,10 +183,9 @@ class _Problem:
         """Return Σ κ ρ(r) for what rows miss (r,); a one-sided row with more than it wants misses nothing."""
         pulls = self._pulls
         lengths = self._lengths(np.where(self._one_sided, np.maximum(missing, 0.0), missing))
-        inside = lengths <= pulls.slacks
-        halves = 0.5 * pulls.slacks
-        pulled = np.where(inside, lengths**2 / (2.0 * pulls.slacks), lengths - halves)
-        return float(pulls.strengths @ pulled)
+        inside = np.minimum(lengths, pulls.slacks)
+        # |r| - δ/2 beyond δ and |r|² / 2δ within, as one formula.
+        return float(pulls.strengths @ (lengths - inside + inside * inside / (2.0 * pulls.slacks)))
 
     def projected(self, forces: Floats) -> Floats:
         """Return the nearest forces (r,) that the groups can have."""
@@ -171,18 +195,18 @@ class _Problem:
 
     def improved(self, here: _State) -> _State | None:
         """Return a state of a higher value, or None where none is to be found."""
-        slope = here.missing - self._damping * here.forces
-        share, direction = 1.0, self._newton(here)
+        direction = self._newton(here)
+        share = self._far_enough(here, direction)
         while share >= LEAST_STEP:
             there = self.state(self.projected(here.forces + share * direction))
-            if there.value > here.value + 1e-4 * max(float(slope @ (there.forces - here.forces)), 0.0):
+            if there.value > here.value + 1e-4 * max(float(here.slope @ (there.forces - here.forces)), 0.0):
                 return there
             share *= 0.5
         # Newton's step leads nowhere where it jumps between pieces; uphill is always right.
         curvature = float(np.einsum("ij,ij->", self._supple, self._pulls.rows) + self._damping.max())
         share = 64.0 / curvature
         while share >= 0.25 / curvature:
-            there = self.state(self.projected(here.forces + share * slope))
+            there = self.state(self.projected(here.forces + share * here.slope))
             if there.value > here.value:
                 return there
             share *= 0.25
@@ -191,39 +215,78 @@ class _Problem:
     def _lengths(self, rows: Floats) -> Floats:
         return np.sqrt(np.add.reduceat(rows * rows, self._pulls.starts))
 
-    def _newton(self, here: _State) -> Floats:
-        """Solve for the change of forces at which all conditions hold, were they linear.
+    def _far_enough(self, here: _State, direction: Floats) -> float:
+        """Return the share of a step, at most 1, after which the objective rises hardly any more.
 
-        A pull that misses less than its slack is a spring, y = κ (b - K x) / δ; one that misses more has
-        its full force, y = κ r / |r|, and turns with r.
+        Its slope along the step is a falling line in pieces, one for every shape that comes into play or to a
+        stop; regula falsi with halving (Illinois) finds where it ends.
         """
-        pulls, missing = self._pulls, here.missing
-        yielding = (self._supple * here.free) @ pulls.rows.T
-        matrix = yielding.copy()
+        work = direction @ self._pulls.rows
+        damped = self._damping * direction
+        wanted, damping = float(direction @ self._wanted - damped @ here.forces), float(damped @ direction)
+
+        def slope(share: float) -> float:
+            change = self._springs.change(here.work + share * work)
+            return wanted - share * damping - float(work @ change)
+
+        low, high = 0.0, 1.0
+        at_low = first = float(direction @ here.slope)
+        if first <= 0.0 or (at_high := slope(high)) >= -FLAT * first:
+            return 1.0
+        last = 0
+        for _ in range(MOST_LOOKS):
+            share = (low * at_high - high * at_low) / (at_high - at_low)
+            at_share = slope(share)
+            if abs(at_share) < FLAT * first:
+                return share
+            if at_share > 0.0:
+                low, at_low, at_high = share, at_share, at_high * (0.5 if last > 0 else 1.0)
+                last = 1
+            else:
+                high, at_high, at_low = share, at_share, at_low * (0.5 if last < 0 else 1.0)
+                last = -1
+        return low or share
+
+    def _newton(self, here: _State) -> Floats:
+        """Return the change of forces (r,) at which the slope would be level, were the objective quadratic.
+
+        A pull with its full force that would like more of it only turns: it moves in the plane that touches
+        the sphere of its directions, where the sphere bends away as much as the slope presses against it
+        (Newton's method on a manifold).  A single row goes to where it would go alone at most.
+        """
+        rows, free = self._pulls.rows, np.flatnonzero(here.free)
+        matrix = self._supple[:, free] @ rows[:, free].T
         matrix.flat[:: len(matrix) + 1] += self._damping
-        right = missing - self._damping * here.forces
-        # Where each group would go alone tells whether it has its full force, none, or something between.
-        alone = here.forces + right / matrix.diagonal()
-        lengths = self._lengths(missing)
-        for group in np.flatnonzero((self._lengths(alone) > pulls.strengths) | pulls.one_sided):
-            start, full = pulls.starts[group], pulls.strengths[group]
-            if self._sizes[group] == 1:
-                force = min(max(alone[start], 0.0 if pulls.one_sided[group] else -full), full)
-                if force != alone[start]:
-                    matrix[start] = 0.0
-                    matrix[start, start] = 1.0
-                    right[start] = force - here.forces[start]
+        right = here.slope.copy()
+        if len(self._single):
+            at = self._single
+            alone = here.forces[at] + right[at] / matrix[at, at]
+            force = np.minimum(np.maximum(alone, self._lowest), self._highest)
+            stopped = force != alone
+            at = at[stopped]
+            matrix[at] = 0.0
+            matrix[at, at] = 1.0
+            right[at] = force[stopped] - here.forces[at]
+        starts, full = self._pulls.starts, self._pulls.strengths
+        pressing = np.add.reduceat(here.forces * here.slope, starts)
+        turning = (self._lengths(here.forces) >= FULL * full) & (pressing > 0.0)
+        for size, groups in self._round:
+            groups = groups[turning[groups]]
+            if not len(groups):
                 continue
-            if lengths[group] <= pulls.slacks[group]:
-                continue
-            rows = slice(start, start + self._sizes[group])
-            way = missing[rows] / lengths[group]
-            turn = lengths[group] / full
-            across = np.eye(self._sizes[group]) - np.outer(way, way)
-            matrix[rows] = across @ yielding[rows]
-            matrix[rows, rows] += turn * np.eye(self._sizes[group])
-            right[rows] = missing[rows] - turn * here.forces[rows]
+            at = starts[groups][:, None] + np.arange(size)
+            outward = here.forces[at] / full[groups][:, None]
+            block = matrix[at]
+            block -= outward[:, :, None] * (outward[:, None, :] @ block)
+            matrix[at] = block
+            bend = pressing[groups] / full[groups] ** 2
+            damping = self._damping[at[:, 0]]
+            matrix[at[:, :, None], at[:, None, :]] += (
+                bend[:, None, None] * np.eye(size)
+                + damping[:, None, None] * outward[:, :, None] * outward[:, None, :]
+            )
+            right[at] -= outward * np.sum(outward * right[at], axis=1, keepdims=True)
         try:
             return np.asarray(np.linalg.solve(matrix, right), np.float64)
         except np.linalg.LinAlgError:
-            return missing - self._damping * here.forces
+            return here.slope

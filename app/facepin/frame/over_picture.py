@@ -20,6 +20,7 @@ from facepin.panels.picture.hand import (
     aim_ring,
     axis_line,
     draw_gesture,
+    goal_label,
     hidden_pins,
     pin_label,
     sketch_hint,
@@ -34,6 +35,7 @@ from facepin.panels.theme import PICTURE, packed, pane_colours
 from facepin.session.hand.gaze import GazeHold
 from facepin.session.hand.hold import Hold
 from facepin.session.session import Session
+from facepin.session.solving.reasons import reason
 
 
 def over_picture(
@@ -136,7 +138,8 @@ def _hand(
     if hovered is not None and not desk.tool.holding:
         name = titles(stage.places, pins)[hovered.vertex]
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
-            pin_label(hovered, name, stage.positions(at), camera, place, pixel_ratio, scale)
+            why = reason(session.rig, session.control, session.panes[at], hovered)
+            pin_label(hovered, name, stage.positions(at), camera, place, pixel_ratio, scale, why)
     if desk.tool.aim is not None and not desk.tool.holding:
         for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
             where = stage.positions(at), camera, place
@@ -148,6 +151,12 @@ def _hand(
     gesture = desk.tool.gesture
     if isinstance(gesture, Hold) and gesture.moved and gesture.radius > 0:
         soft_ring(gesture, stage.positions(session.active), pixel_ratio, scale)
+    if isinstance(gesture, Hold) and gesture.moved:
+        pin = next((pin for pin in pins if pin.vertex == gesture.pin.vertex), None)
+        for at, (camera, place) in enumerate(zip(desk.cameras, viewports, strict=False)):
+            if pin is not None and at < len(session.panes):
+                why = reason(session.rig, session.control, session.panes[at], pin)
+                goal_label(pin, why, camera, place, pixel_ratio, scale)
     if desk.view.pins.sketching:
         sketch_hint(desk.view.pins.stroke, desk.view.habit, viewport, pixel_ratio, scale)
     asked = symmetry_button(desk.view.symmetric, desk.view.habit, viewport, pixel_ratio, scale)

@@ -119,15 +119,35 @@ def pin_label(
     viewport: Viewport,
     pixel_ratio: float,
     scale: float,
+    why: str = "",
 ) -> None:
-    """Write beside a pin what it is called and what is not usual about it."""
+    """Write beside a pin what it is called, what is not usual about it, and `why` it is not at its goal."""
     words = [title]
     words += [f"stiffness {pin.stiffness:.3g}"] * (pin.stiffness != 1.0)
-    words += ["on screen"] * (pin.freedom == "screen") + ["locked"] * pin.locked
+    words += ["on screen"] * (pin.freedom == "screen") + ["locked"] * pin.locked + [why] * bool(why)
     x, y, _ = (camera.project(positions[[pin.vertex]], viewport)[0] / pixel_ratio).tolist()
     if x != x:
         return
     _label("   ".join(words), x, y, viewport, pixel_ratio, scale)
+
+
+def goal_label(
+    pin: Pin,
+    why: str,
+    camera: Camera,
+    viewport: Viewport,
+    pixel_ratio: float,
+    scale: float,
+) -> None:
+    """Write beside the goal of the pin in the hand, or near it, why the face stays behind."""
+    x, y, _ = (camera.project(np.array([pin.goal]), viewport)[0] / pixel_ratio).tolist()
+    if not why or x != x:
+        return
+    width, line = imgui.calc_text_size(why).x + 26 * scale, imgui.get_text_line_height()
+    left, top = viewport.x / pixel_ratio, viewport.y / pixel_ratio
+    right, bottom = left + viewport.width / pixel_ratio, top + viewport.height / pixel_ratio
+    x, y = min(max(x, left), right - width), min(max(y, top + line), bottom - line)
+    _label(why, x, y, viewport, pixel_ratio, scale)
 
 
 def _label(text: str, x: float, y: float, viewport: Viewport, pixel_ratio: float, scale: float) -> None:

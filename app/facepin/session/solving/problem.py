@@ -140,6 +140,8 @@ def _grasp(rig: Rig, pins: tuple[Pin, ...], grabbed: Collection[int], heard: Flo
 
 def _of_free(grasp: Grasp, free: NDArray[np.intp]) -> Grasp:
     """Return what a hand holds for some of the shapes (f,)."""
+    if len(free) == len(grasp.likeness):  # the far rows are many: they are not copied for nothing
+        return grasp
     answers = None if grasp.answers is None else grasp.answers[free]
     return replace(
         grasp, far=grasp.far[:, :, free], likeness=grasp.likeness[np.ix_(free, free)], answers=answers

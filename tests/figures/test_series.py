@@ -16,7 +16,7 @@ from facepin.core.events import PointerMoved
 from facepin.core.pose import Pin, Pose
 from facepin.figures.movie import played
 from facepin.files import write_model
-from facepin.files.animation import write_animation
+from facepin.files.animation import Animation
 from facepin.files.work.pins_file import write_pins
 from facepin.files.work.pose_file import write_pose
 from facepin.panels.commands import Command
@@ -228,11 +228,29 @@ def test_a_job_ends_with_its_line_and_passes_errors_on() -> None:
                 pass
 
 
+def test_frames_that_are_alike_are_one_shown_longer(tmp_path: Path) -> None:
+    dark, light = (np.full((5, 6, 3), value, np.uint8) for value in (10, 200))
+    animation = Animation()
+    for frame in (dark, dark.copy(), dark, light):
+        animation.add(frame)
+    animation.write(tmp_path / "moving.png", 0.1)
+    with Image.open(tmp_path / "moving.png") as moving:
+        assert moving.n_frames == 2
+        durations = []
+        for number in range(2):
+            moving.seek(number)
+            durations.append(moving.info["duration"])
+        assert durations == [300, 100]
+
+
 @pytest.mark.parametrize("channels", [3, 4])
 def test_an_animation_holds_the_very_pixels(tmp_path: Path, channels: int) -> None:
     random = np.random.default_rng(1)
     frames = [random.integers(0, 255, (9, 7, channels), np.uint8) for _ in range(4)]
-    write_animation(tmp_path / "moving.png", frames, 0.1)
+    animation = Animation()
+    for frame in frames:
+        animation.add(frame)
+    animation.write(tmp_path / "moving.png", 0.1)
     with Image.open(tmp_path / "moving.png") as moving:
         assert (moving.n_frames, moving.info["loop"]) == (4, 0)
         for number, frame in enumerate(frames):

@@ -12,7 +12,7 @@ from facepin.core.saved_pose import SavedPose
 from facepin.desk.desk import Desk
 from facepin.desk.papers import free_name
 from facepin.desk.stage import Stage
-from facepin.files.animation import write_animation
+from facepin.files.animation import Animation
 from facepin.files.safely.atomic import atomic_write
 from facepin.gpu.picture import Image, png_bytes
 from facepin.panels.commands import Command
@@ -117,18 +117,25 @@ def _turntable(desk: Desk, stage: Stage) -> Steps:
     shrink = min(TURN_HEIGHT / height, 1.0)
     size = (max(round(shrink * width), 1), max(round(shrink * height), 1))
     camera, pose = desk.camera, session.pose.with_weights(session.control.heard(session.pose.weights))
-    images = []
+    animation = Animation()
     for number in range(TURN):
         turned = camera.orbited(2 * pi * number / TURN, 0.0)
-        images.append(stage.portrait(pose, turned, size, scale=desk.pixel_scale * shrink))
-        yield from beside(_writing(folder / f"{number:03}.png", images[-1]), 0.8 * number / TURN)
+        image = stage.portrait(pose, turned, size, scale=desk.pixel_scale * shrink)
+        yield from beside(_writing(folder / f"{number:03}.png", image, animation), 0.8 * number / TURN)
     path = folder / "turntable.png"
-    yield from beside(lambda: write_animation(path, images, TURN_SECONDS), 0.85)
+    yield from beside(lambda: animation.write(path, TURN_SECONDS), 0.85)
     return f"Saved {folder}"
 
 
-def _writing(path: Path, image: Image) -> Callable[[], None]:
-    return lambda: atomic_write(path, png_bytes(image))
+def _writing(path: Path, image: Image, animation: Animation | None = None) -> Callable[[], None]:
+    """Write one picture of many; take it for an animated one too, if there is one."""
+
+    def write() -> None:
+        atomic_write(path, png_bytes(image))
+        if animation is not None:
+            animation.add(image)
+
+    return write
 
 
 def _size(desk: Desk) -> tuple[int, int]:

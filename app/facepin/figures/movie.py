@@ -17,7 +17,7 @@ from facepin.core.shapes.measures import REST
 from facepin.figures.compare import progress_line
 from facepin.figures.pictures import Painter
 from facepin.figures.posing import DELIGHT, dragged, handles, named_weights
-from facepin.files.animation import write_animation
+from facepin.files.animation import Animation
 from facepin.options import (
     add_solver,
     count,
@@ -96,13 +96,14 @@ def run(options: Namespace) -> Path:
         face = (max(round(width * (1 - SLIDERS)), 1), height)
         painter = Painter(ctx, rig, face)
         shapes = _shapes(rig, moments)
-        images: list[Image] = []
+        animation, picture = Animation(), None
         for number, moment in enumerate(moments):
             tell(f"Picture {number + 1} of {len(moments)}")
-            rests = number > 0 and moment is moments[number - 1]
-            images.append(images[-1] if rests else _picture(rig, painter, moment, shapes, (width, height)))
+            if picture is None or moment is not moments[number - 1]:
+                picture = _picture(rig, painter, moment, shapes, (width, height))
+            animation.add(picture)
         painter.release()
-    write_animation(options.out, images, SECONDS)
+    animation.write(options.out, SECONDS)
     return Path(options.out)
 
 

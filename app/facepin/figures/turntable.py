@@ -8,7 +8,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera, frame_points
 from facepin.figures.compare import made_folder, progress_line
 from facepin.figures.pictures import Painter
-from facepin.files.animation import write_animation
+from facepin.files.animation import Animation
 from facepin.files.safely.atomic import atomic_write
 from facepin.options import add_rig, count, first_pose, open_with_bar, picture_size
 
@@ -51,18 +51,20 @@ def run(options: Namespace) -> Path:
     pose = first_pose(rig, options.pose, None)
     positions = rig.evaluate(pose.weights)
     camera = frame_points(positions, options.size[0] / options.size[1], Camera(radius=0.0))
-    images = []
+    animation = Animation()
+    if not suffix:
+        made_folder(options.out)
     with progress_line() as tell, open_context() as ctx:
         painter = Painter(ctx, rig, options.size)
         for number in range(options.frames):
             tell(f"Picture {number + 1} of {options.frames}")
             painter.camera = camera.orbited(2 * pi * number / options.frames, 0.0)
-            images.append(painter.paint(positions, transparent=options.transparent))
+            image = painter.paint(positions, transparent=options.transparent)
+            if suffix:
+                animation.add(image)
+            else:
+                atomic_write(options.out / f"{number:03}.png", png_bytes(image))
         painter.release()
     if suffix:
-        write_animation(options.out, images, SECONDS / options.frames)
-    else:
-        made_folder(options.out)
-        for number, image in enumerate(images):
-            atomic_write(options.out / f"{number:03}.png", png_bytes(image))
+        animation.write(options.out, SECONDS / options.frames)
     return Path(options.out)

@@ -202,3 +202,43 @@ def test_real_textures_are_written_once_each(shared: Path, tmp_path: Path) -> No
         np.testing.assert_array_equal(copy.texture.pixels, part.texture.pixels)
     count = len({part.texture for part in rig.parts})
     assert (tmp_path / "again.glb").read_bytes().count(b"image/png") == count
+
+
+GLASS = {"KHR_materials_transmission": {"transmissionFactor": 0.75}}
+
+
+@pytest.mark.parametrize(
+    ("material", "alpha", "found"),
+    [
+        ({}, 0.0, (1.0, False, None)),
+        ({"alphaMode": "BLEND"}, 0.0, (0.0, True, 0.5)),
+        ({"alphaMode": "BLEND"}, 0.4, (0.4, True, 0.5)),
+        ({"alphaMode": "MASK", "alphaCutoff": 0.3}, 0.4, (0.4, False, 0.3)),
+    ],
+)
+@pytest.mark.parametrize("with_picture", [True, False])
+def test_what_a_material_says_of_alpha_is_kept_and_comes_back(
+    tmp_path: Path, material: dict, alpha: float, found: tuple, with_picture: bool
+) -> None:
+    opacity, blends, cutout = found
+    gltf = textured(png(), doubleSided=True, extensions=GLASS, **material)
+    shine = gltf.json["materials"][0]["pbrMetallicRoughness"]
+    shine["baseColorFactor"] = [1, 0.5, 0.5, alpha]
+    if not with_picture:
+        del shine["baseColorTexture"]
+        opacity, cutout = (1.0 if cutout == 0.3 else opacity), None
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    write_model(rig, np.zeros(2), tmp_path / "again.glb")
+    for part in rig.parts + open_rig(tmp_path / "again.glb").parts:
+        assert (part.opacity, part.blends, part.cutout) == (pytest.approx(opacity), blends, cutout)
+        assert part.double_sided
+    assert rig.parts[0].transmission == 0.75
+
+
+def test_a_surface_without_picture_that_is_cut_away_is_not_there(tmp_path: Path) -> None:
+    gltf = face_gltf()
+    gltf.json["meshes"][0]["primitives"][0]["material"] = 0
+    shine = {"baseColorFactor": [1, 1, 1, 0.2]}
+    gltf.json["materials"] = [{"alphaMode": "MASK", "pbrMetallicRoughness": shine}]
+    (part,) = open_rig(gltf.save(tmp_path / "face.glb")).parts
+    assert (part.opacity, part.cutout, part.double_sided) == (0.0, None, False)

@@ -362,3 +362,13 @@ def test_the_real_face_is_the_same_in_all_its_forms(shared):
     assert len(npz.parts) == 17
     assert len(npz.face_sizes) == 26384
     assert len(glb.triangles) == len(npz.triangles)
+
+
+@pytest.mark.parametrize(
+    ("extension", "front"), [("VRM", (0.0, 0.0, -1.0)), ("VRMC_vrm", (0.0, 0.0, 1.0)), ("OTHER", None)]
+)
+def test_an_avatar_says_which_way_it_looks(tmp_path, extension, front):
+    gltf = face_gltf()
+    gltf.json["extensions"] = {extension: {}}
+    rig = open_rig(gltf.save(tmp_path / "face.vrm"))
+    assert (rig.front, rig.up) == (front, front and (0.0, 1.0, 0.0))

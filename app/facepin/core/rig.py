@@ -39,7 +39,15 @@ class Part:
     texture: Texture | None = None
     """Multiplies the base colour, where `Rig.texture_places` says."""
     cutout: float | None = None
-    """Alpha of the texture below which there is nothing; None for what is solid."""
+    """Alpha of the texture times `opacity` below which there is nothing; None for what is solid."""
+    opacity: float = 1.0
+    """Alpha of the whole part, 0 nothing is there .. 1; multiplies that of the texture."""
+    blends: bool = False
+    """What is behind it shows through it by its alpha; `cutout` is then where to cut it instead."""
+    transmission: float = 0.0
+    """Share of the light that goes straight through its surface, as through glass, 0 .. 1."""
+    double_sided: bool = True
+    """Whether the file lets it be seen from behind too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +90,10 @@ class Rig:
     texture_places: Points | None = None
     """(n, 2) float32, where each vertex is in the textures: 0, 0 first corner of the first row, 1, 1 last of
     the last; or None."""
+    up: tuple[float, float, float] | None = None
+    """Unit vector towards the top of the head, where the file says; None where it does not."""
+    front: tuple[float, float, float] | None = None
+    """Unit vector from the face towards whom it looks at, where the file says; None where it does not."""
     warnings: tuple[str, ...] = ()
     """What the reader had to mend or leave out, one line each."""
     source: Path | None = None

@@ -32,6 +32,10 @@ class PartLook:
     roughness: float = Part.roughness
     texture: Texture | None = None
     cutout: float | None = None
+    opacity: float = 1.0
+    blends: bool = False
+    transmission: float = 0.0
+    double_sided: bool = True
 
 
 def build_rig(
@@ -48,6 +52,8 @@ def build_rig(
     texture_places: ArrayLike | None = None,
     limits: ArrayLike | None = None,
     rest_weights: ArrayLike | None = None,
+    up: tuple[float, float, float] | None = None,
+    front: tuple[float, float, float] | None = None,
     warnings: Iterable[str] = (),
     source: Path | None = None,
 ) -> Rig:
@@ -76,6 +82,8 @@ def build_rig(
         0..1 when left out; widened where a rest weight lies outside.
     rest_weights : (k,)
         Weights the file itself asks for.
+    up, front : unit vectors
+        Which way is up, and which way the face looks, where the file says.
 
     Raises
     ------
@@ -140,6 +148,8 @@ def build_rig(
         texture_places=None
         if texture_places is None
         else _texture_places(where, texture_places, len(positions)),
+        up=up,
+        front=front,
         warnings=_few([*warnings, *remarks]),
         source=source,
     )
@@ -230,7 +240,21 @@ def _parts(looks: Sequence[PartLook], part_of_face: NDArray[np.intp], sizes: Ind
         if start < stop:
             triangles = range(int(triangle_ends[start]), int(triangle_ends[stop]))
             faces = range(start, stop)
-            parts.append(Part(name, faces, triangles, look.colour, look.roughness, look.texture, look.cutout))
+            parts.append(
+                Part(
+                    name,
+                    faces,
+                    triangles,
+                    look.colour,
+                    look.roughness,
+                    look.texture,
+                    look.cutout,
+                    look.opacity,
+                    look.blends,
+                    look.transmission,
+                    look.double_sided,
+                )
+            )
     return tuple(parts)
 
 

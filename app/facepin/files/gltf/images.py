@@ -106,18 +106,6 @@ def _is_plain(picture: "Image") -> bool:
     return max(picture.size) > KEPT and picture.mode in ("L", "LA", "RGB", "RGBA")
 
 
-def cutout(document: GltfDocument, primitive: JsonObject) -> float | None:
-    """Return the alpha below which the material of a primitive shows nothing, None where it is solid.
-
-    What is meant to be blended is cut as well: order does not matter then, and cards of lashes look right.
-    """
-    material = document.root.children("materials")[primitive.integer("material")]
-    mode = material.text("alphaMode", "OPAQUE")
-    if mode == "OPAQUE":
-        return None
-    return material.number("alphaCutoff", 0.5, low=0.0, high=1.0) if mode == "MASK" else 0.5
-
-
 def texture_places(
     document: GltfDocument, primitive: JsonObject, shine: JsonObject, count: int
 ) -> Points | None:

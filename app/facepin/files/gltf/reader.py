@@ -14,9 +14,9 @@ from facepin.core.rig import Rig
 from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files.gltf.accessors import accessor_count, read_delta, read_floats, read_indices
 from facepin.files.gltf.document import COMPRESSIONS, GltfDocument, read_document, refuse_compression
-from facepin.files.gltf.images import Textures, cutout, texture_places
+from facepin.files.gltf.images import Textures, texture_places
 from facepin.files.gltf.materials import linear_to_srgb, material_factor, part_look, shine_of
-from facepin.files.gltf.scene import Placed, placed_meshes
+from facepin.files.gltf.scene import Placed, avatar_front, placed_meshes
 from facepin.files.gltf.targets import ShapeKey, combined_targets, rest_weights, shape_keys
 from facepin.files.options import Progress, ReadOptions, no_progress
 from facepin.files.safely.checked_json import JsonObject
@@ -101,6 +101,7 @@ def read_gltf(path: Path, options: ReadOptions) -> Rig:
     triangles = np.concatenate(gathered.triangles)
     keys = [key for key in gathered.shapes if key not in gathered.combined]
     places = {key: j for j, key in enumerate(keys)}
+    front = avatar_front(document)
     return build_rig(
         path.stem,
         np.concatenate(gathered.positions),
@@ -123,6 +124,8 @@ def read_gltf(path: Path, options: ReadOptions) -> Rig:
         colours=_colours(gathered),
         texture_places=_places(gathered),
         rest_weights=np.array([gathered.rest[key] for key in places]),
+        up=None if front is None else (0.0, 1.0, 0.0),
+        front=front,
         warnings=gathered.warnings,
         source=path,
     )
@@ -172,8 +175,7 @@ def _add_mesh(gathered: Assembly, place: Placed) -> None:
         gathered.triangles.append(_triangles(gathered, primitive, mode, block, place.matrix))
         look = part_look(gathered.document, primitive, _mesh_name(place), at, len(primitives))
         if block.textured and shine is not None:
-            texture = gathered.textures.base_colour(shine)
-            look = replace(look, texture=texture, cutout=cutout(gathered.document, primitive))
+            look = replace(look, texture=gathered.textures.base_colour(shine))
         gathered.parts.append(look)
 
 

@@ -54,6 +54,17 @@ def placed_meshes(document: GltfDocument) -> list[Placed]:
     return placed
 
 
+def avatar_front(document: GltfDocument) -> tuple[float, float, float] | None:
+    """Return which way the face of an avatar looks, None where the file is not said to be one.
+
+    VRM 0 looks along -z, VRM 1 along z; y is up in both.  That glTF itself has the front at z binds few.
+    """
+    extensions = document.root.child("extensions")
+    if "VRMC_vrm" in extensions:
+        return 0.0, 0.0, 1.0
+    return (0.0, 0.0, -1.0) if "VRM" in extensions else None
+
+
 def _world_matrices(root: JsonObject) -> Iterator[tuple[int, Floats]]:
     """Walk from the roots of the scene (of all nodes, where there is no scene) down, parents first."""
     nodes = root.children("nodes")

@@ -197,13 +197,18 @@ def _looks(rig: Rig, packed: _Packed) -> dict[str, Any]:
 
 def _material(part: Part, coloured: bool, texture: int | None) -> dict[str, Any]:
     """Return the material of a part; white where the vertices carry the colour."""
+    base = (1.0, 1.0, 1.0) if part.colour is None or coloured else srgb_to_linear(part.colour)
     shine: dict[str, Any] = {"metallicFactor": 0.0, "roughnessFactor": part.roughness}
-    if part.colour is not None and not coloured:
-        shine["baseColorFactor"] = [*map(float, srgb_to_linear(part.colour)), 1.0]
+    if (part.colour is not None and not coloured) or part.opacity < 1.0:
+        shine["baseColorFactor"] = [*map(float, base), part.opacity]
     if texture is not None:
         shine["baseColorTexture"] = {"index": texture}
-    cut = {} if part.cutout is None else {"alphaMode": "MASK", "alphaCutoff": part.cutout}
-    return {"name": part.name, "pbrMetallicRoughness": shine, "doubleSided": True, **cut}
+    look: dict[str, Any] = {"name": part.name, "pbrMetallicRoughness": shine, "doubleSided": True}
+    if part.blends:
+        look["alphaMode"] = "BLEND"
+    elif part.cutout is not None or part.opacity < 1.0:
+        look |= {"alphaMode": "MASK", "alphaCutoff": 0.5 if part.cutout is None else part.cutout}
+    return look
 
 
 def _container(document: dict[str, Any], binary: bytes) -> bytes:

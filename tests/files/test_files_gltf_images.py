@@ -14,6 +14,7 @@ from PIL import Image
 from facepin.core.rig import Rig, Texture
 from facepin.files import open_rig, write_model
 from facepin.files.gltf import images as gltf_images
+from facepin.files.gltf import textures as gltf_textures
 from support.sample_files import Gltf, face_gltf
 
 PLACES = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32)
@@ -98,7 +99,9 @@ def test_nothing_outside_the_folder_is_read(tmp_path: Path, uri: str) -> None:
 def test_what_is_no_picture_is_left_out(tmp_path: Path) -> None:
     whole = png(np.random.default_rng(1).integers(0, 255, (64, 64, 3)).astype(np.uint8))
     for broken in (b"", b"GIF89a" + bytes(30), whole[: len(whole) // 2], whole[:40], b"<svg/>"):
-        left_out(open_rig(textured(broken or b"x").save(tmp_path / "face.glb")), "images[0]", "PNG or JPEG")
+        left_out(
+            open_rig(textured(broken or b"x").save(tmp_path / "face.glb")), "images[0]", "PNG, JPEG or WebP"
+        )
     left_out(open_rig(textured({"uri": "gone.png"}).save(tmp_path / "face.glb")), "gone.png")
     left_out(open_rig(textured({"bufferView": 99}).save(tmp_path / "face.glb")), "bufferViews[99]")
 
@@ -112,7 +115,7 @@ def test_a_small_file_cannot_ask_for_much_memory(tmp_path: Path, monkeypatch: py
         header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
         data = chunk(b"IDAT", zlib.compress(bytes(1000))) + chunk(b"IEND", b"")
         left_out(open_rig(textured(b"\x89PNG\r\n\x1a\n" + header + data).save(tmp_path / "face.glb")), word)
-    monkeypatch.setattr(gltf_images, "MOST_PIXELS", 3)
+    monkeypatch.setattr(gltf_textures, "MOST_PIXELS", 3)
     left_out(open_rig(textured(png()).save(tmp_path / "face.glb")), "together")
 
 

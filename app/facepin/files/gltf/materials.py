@@ -80,6 +80,19 @@ def _alpha(material: JsonObject, shine: JsonObject) -> tuple[float, float | None
 
 
 def shine_of(document: GltfDocument, primitive: JsonObject) -> JsonObject | None:
-    """Return the `pbrMetallicRoughness` of a primitive's material, or None without a material."""
+    """Return the `pbrMetallicRoughness` of a primitive's material, or None without a material.
+
+    The older `KHR_materials_pbrSpecularGlossiness` takes its place where there is one: its diffuse colour
+    is the base colour of what is no metal.
+    """
     index = primitive.optional_integer("material")
-    return None if index is None else document.root.children("materials")[index].child("pbrMetallicRoughness")
+    if index is None:
+        return None
+    material = document.root.children("materials")[index]
+    older = material.child("extensions").child("KHR_materials_pbrSpecularGlossiness")
+    if not older.values:
+        return material.child("pbrMetallicRoughness")
+    names = {"diffuseFactor": "baseColorFactor", "diffuseTexture": "baseColorTexture"}
+    shine = {new: older.values[old] for old, new in names.items() if old in older}
+    gloss = older.number("glossinessFactor", 1.0, low=0.0, high=1.0)
+    return JsonObject({**shine, "roughnessFactor": 1.0 - gloss}, older.where)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from facepin.core.arrays import Floats, Points, frozen
 from facepin.core.mesh.normals import NormalField
 from facepin.core.rig import Part, Rig, Texture
-from facepin.files.gltf.document import BINARY_CHUNK, JSON_CHUNK
-from facepin.files.gltf.images import CLAMP, REPEAT
+from facepin.files.gltf.container import BINARY_CHUNK, JSON_CHUNK
 from facepin.files.gltf.materials import srgb_to_linear
 from facepin.files.gltf.targets import COMBINATIONS
+from facepin.files.gltf.textures import CLAMP, REPEAT
 from facepin.files.safely.atomic import atomic_write
 
 FLOAT, SHORT, LONG = 5126, 5123, 5125

@@ -245,3 +245,90 @@ def test_a_surface_without_picture_that_is_cut_away_is_not_there(tmp_path: Path)
     gltf.json["materials"] = [{"alphaMode": "MASK", "pbrMetallicRoughness": shine}]
     (part,) = open_rig(gltf.save(tmp_path / "face.glb")).parts
     assert (part.opacity, part.cutout, part.double_sided) == (0.0, None, False)
+
+
+def webp(gltf: Gltf, content: bytes) -> None:
+    """Name a picture by EXT_texture_webp beside what the texture has."""
+    gltf.json["images"].append({"bufferView": gltf.view(content), "mimeType": "image/webp"})
+    gltf.json["textures"][0]["extensions"] = {"EXT_texture_webp": {"source": 1}}
+
+
+@pytest.mark.parametrize("plain", ["none", "broken", "whole"])
+def test_webp_instead_of_a_plain_picture_or_beside_it(tmp_path: Path, plain: str) -> None:
+    large = np.repeat(np.repeat(PIXELS, 8, axis=0), 8, axis=1)
+    gltf = textured(png() if plain == "whole" else b"no picture")
+    webp(gltf, png(large, "WEBP"))
+    if plain == "none":
+        del gltf.json["textures"][0]["source"]
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    assert texture(rig).pixels.shape == ((2, 2, 4) if plain == "whole" else (16, 16, 4))
+    np.testing.assert_allclose(texture(rig).pixels[0, 0], [255, 0, 0, 255], atol=6)
+    assert rig.warnings == ()
+
+
+def test_where_no_picture_of_a_texture_can_be_read_one_line_says_so(tmp_path: Path) -> None:
+    gltf = textured(b"no picture")
+    webp(gltf, b"nor this")
+    left_out(open_rig(gltf.save(tmp_path / "face.glb")), "images[1]")
+    del gltf.json["textures"][0]["source"], gltf.json["textures"][0]["extensions"]
+    left_out(open_rig(gltf.save(tmp_path / "face.glb")), "textures[0].source")
+
+
+def test_the_diffuse_colour_of_specular_glossiness_is_the_base_colour(tmp_path: Path) -> None:
+    gltf = textured(png())
+    older = {"diffuseTexture": {"index": 0}, "diffuseFactor": [1.0, 0.0, 1.0, 0.5], "glossinessFactor": 0.25}
+    gltf.json["materials"] = [
+        {"alphaMode": "BLEND", "extensions": {"KHR_materials_pbrSpecularGlossiness": older}}
+    ]
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    np.testing.assert_array_equal(texture(rig).pixels[..., :3], PIXELS)
+    (part,) = rig.parts
+    assert (part.colour, part.roughness, part.opacity) == ((1.0, 0.0, 1.0), 0.75, 0.5)
+
+
+def test_a_second_set_of_coordinates(tmp_path: Path) -> None:
+    gltf = textured(png())
+    (primitive,) = gltf.json["meshes"][0]["primitives"]
+    primitive["attributes"]["TEXCOORD_1"] = gltf.accessor(1 - PLACES)
+    gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    np.testing.assert_array_equal(rig.texture_places, 1 - PLACES)
+
+
+def test_a_picture_that_many_name_is_decoded_and_kept_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gltf_textures, "MOST_PIXELS", 4)  # as many as it has
+    gltf = textured(png())
+    address = gltf.json["images"][0]
+    (tmp_path / "skin.png").write_bytes(png())
+    copy = {"bufferView": gltf.view(png())}
+    gltf.json["images"] = [address, address, copy, {"uri": "skin.png"}, {"uri": "./skin.png"}]
+    gltf.json["textures"] = [{"source": at % 5} for at in range(20)]
+    gltf.json["materials"] = [
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": at}}} for at in range(20)
+    ]
+    (primitive,) = gltf.json["meshes"][0]["primitives"]
+    gltf.json["meshes"][0]["primitives"] = [primitive | {"material": at} for at in range(20)]
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    assert rig.warnings == ()
+    assert len({part.texture for part in rig.parts}) == 1
+    assert rig.vertex_count == 4
+
+
+@pytest.mark.parametrize("size", [8, 40])
+@pytest.mark.parametrize("mode", ["I;16", "L", "LA", "P", "1", "RGBA"])
+def test_pictures_of_every_kind_keep_their_brightness(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: str, size: int
+) -> None:
+    monkeypatch.setattr(gltf_images, "KEPT", 16)
+    monkeypatch.setattr(gltf_images, "STRIP", 100)
+    if mode == "I;16":
+        picture = Image.fromarray(np.full((size, size), 0x4080, np.uint16))
+    else:
+        picture = Image.new("L", (size, size), 255 if mode == "1" else 0x40).convert(mode)
+    file = io.BytesIO()
+    picture.save(file, "PNG")
+    pixels = texture(open_rig(textured(file.getvalue()).save(tmp_path / "face.glb"))).pixels
+    assert pixels.shape == (min(size, 14), min(size, 14), 4)
+    assert (pixels == (*[255 if mode == "1" else 0x40] * 3, 255)).all()

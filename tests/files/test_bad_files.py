@@ -32,7 +32,7 @@ def check(rig):
     assert rig.triangles.max() < rig.vertex_count
     assert rig.parts[-1].faces.stop == len(rig.face_sizes)
     assert len(set(rig.shape_names)) == rig.shape_count == rig.deltas.shape[1] > 0
-    assert all(name.isprintable() and 0 < len(name) < 80 for name in rig.shape_names)
+    assert all(name.isprintable() and 0 < len(name) <= 256 for name in rig.shape_names)
     assert all(line.isprintable() for line in rig.warnings)
 
 

@@ -1,5 +1,6 @@
 """The rig: a neutral face and the deltas of its shapes, as one immutable value."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -68,7 +69,7 @@ class Rig:
     3 v + c its coordinate c at vertex v.  Then one column for each combination.  Indices sorted, exact zeros
     dropped."""
     shape_names: tuple[str, ...]
-    """k names, unique and printable."""
+    """k names, unique and printable: what shapes are called here."""
     corners: Indices
     """(sum of face_sizes,) int32, vertex index of every face corner, face after face."""
     face_sizes: Indices
@@ -83,6 +84,8 @@ class Rig:
     """(k,) weights the file itself asks for, mostly zeros."""
     combinations: Indices = field(default_factory=lambda: frozen(np.zeros((0, 2)), np.int32))
     """(c, 2) int32, the two shapes a and b, a < b, of each combination."""
+    file_names: tuple[str, ...] = ()
+    """k names as the file has them, which may be empty, repeat, or hold what cannot be shown."""
     ties: tuple[tuple[int, int], ...] = ()
     """Pairs (a, b) of shapes: a is made to be used with at most as much of it as of b."""
     colours: Points | None = None
@@ -107,6 +110,18 @@ class Rig:
     def shape_count(self) -> int:
         """Number of shapes k."""
         return len(self.shape_names)
+
+    @cached_property
+    def names_outside(self) -> tuple[str, ...]:
+        """k names that other programs know the shapes by: those of the file where they tell shapes apart."""
+        counts = Counter(self.file_names)
+        pairs = zip(self.file_names or self.shape_names, self.shape_names, strict=True)
+        return tuple(outside if counts[outside] == 1 and outside else name for outside, name in pairs)
+
+    def names_here(self, names: Sequence[str]) -> list[str]:
+        """Return `names`, but as `shape_names` has them those that only `names_outside` knows."""
+        here = dict(zip(self.names_outside, self.shape_names, strict=True))
+        return [here.get(name, name) for name in names]
 
     @property
     def combination_names(self) -> tuple[str, ...]:

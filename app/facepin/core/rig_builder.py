@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.delta_columns import Delta, checked_points, delta_columns, side_by_side
 from facepin.core.errors import FacepinError
-from facepin.core.names import clean_name, clean_names, listed
+from facepin.core.names import LONGEST_SHAPE, clean_name, clean_names, listed
 from facepin.core.rig import Part, Rig, Texture
 
 Pair = tuple[int, int]
@@ -108,7 +108,7 @@ def build_rig(
     columns = delta_columns(where, shapes, len(positions))
     if not columns.names:
         raise FacepinError(f"{where}: no shapes, only a neutral; allowed are one or more")
-    shape_names, remarks = clean_names(columns.names)
+    shape_names, remarks = clean_names(columns.names, longest=LONGEST_SHAPE)
     if columns.equal:
         pairs = [f"{shape_names[i]} and {shape_names[j]}" for i, j in columns.equal]
         remarks.append(f"equal shapes, which no solver can tell apart: {listed(pairs)}")
@@ -142,6 +142,7 @@ def build_rig(
         parts=_parts(looks, part_of_face, sizes),
         limits=frozen(allowed, np.float64),
         rest_weights=rest,
+        file_names=tuple(columns.names),
         ties=_ties(shape_names),
         combinations=frozen(np.reshape(combined, (-1, 2)), np.int32),
         colours=None if colours is None else _colours(where, colours, len(positions)),

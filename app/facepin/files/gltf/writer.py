@@ -78,7 +78,7 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
 
 def _extras(rig: Rig) -> dict[str, Any]:
     """Return the names of all targets, and of which shapes the combinations among them are."""
-    names = [*rig.shape_names, *rig.combination_names]
+    names = [*rig.names_outside, *rig.combination_names]
     combined = [
         {"target": rig.shape_count + i, "shapes": [a, b]}
         for i, (a, b) in enumerate(rig.combinations.tolist())

@@ -97,6 +97,8 @@ class Rig:
     """Unit vector towards the top of the head, where the file says; None where it does not."""
     front: tuple[float, float, float] | None = None
     """Unit vector from the face towards whom it looks at, where the file says; None where it does not."""
+    poses: tuple[tuple[str, Floats], ...] = ()
+    """Poses that the file brings: titles, each once, and weights (k,), read-only."""
     warnings: tuple[str, ...] = ()
     """What the reader had to mend or leave out, one line each."""
     source: Path | None = None

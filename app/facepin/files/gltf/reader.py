@@ -1,6 +1,7 @@
 """Rigs from .glb, .gltf and .vrm files: morph targets become shapes, node transforms are baked in."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from facepin.core.rig import Rig
 from facepin.core.rig_builder import build_rig
 from facepin.files.gltf.accessors import read_delta
 from facepin.files.gltf.document import GltfDocument, read_document
+from facepin.files.gltf.expressions import expressions
 from facepin.files.gltf.gathering import Assembly, Block, carried
 from facepin.files.gltf.scene import avatar_front, placed_meshes
 from facepin.files.gltf.shape_names import ShapeKey
@@ -50,7 +52,9 @@ def read_gltf(path: Path, options: ReadOptions) -> Rig:
     keys = [key for key in gathered.shapes if key not in gathered.combined]
     places = {key: j for j, key in enumerate(keys)}
     front = avatar_front(document)
-    return build_rig(
+    poses, faults = expressions(document, keys_of, places)
+    gathered.warnings += faults
+    rig = build_rig(
         path.stem,
         np.concatenate(gathered.positions),
         triangles.ravel(),
@@ -74,6 +78,7 @@ def read_gltf(path: Path, options: ReadOptions) -> Rig:
         warnings=gathered.warnings,
         source=path,
     )
+    return replace(rig, poses=poses)
 
 
 def _deltas(gathered: Assembly, keys: Sequence[ShapeKey], progress: Progress) -> Iterator[Delta]:

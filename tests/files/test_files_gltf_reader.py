@@ -286,3 +286,13 @@ def test_an_avatar_says_which_way_it_looks(tmp_path, extension, front):
     gltf.json["extensions"] = {extension: {}}
     rig = open_rig(gltf.save(tmp_path / "face.vrm"))
     assert (rig.front, rig.up) == (front, front and (0.0, 1.0, 0.0))
+
+
+def test_targets_that_move_nothing_are_told(tmp_path):
+    gltf = Gltf()
+    primitive = gltf.primitive([gltf.accessor(SMILE)])
+    primitive["targets"] += [{"NORMAL": gltf.accessor(SMILE)}, {"COLOR_0": gltf.accessor(SMILE)}]
+    gltf.node(mesh=gltf.mesh([primitive], ["smile", "wrinkle", "blush"]))
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    assert np.array_equal(dense(rig), [SMILE, 0 * SMILE, 0 * SMILE])
+    assert rig.warnings == ("shapes that move nothing: wrinkle, blush",)

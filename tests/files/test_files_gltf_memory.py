@@ -63,7 +63,7 @@ def test_neither_text_nor_repetition_is_data_that_vertices_could_come_from(tmp_p
     gltf = face_gltf()
     (tmp_path / "face.bin").write_bytes(bytes(gltf.binary))
     gltf.json["buffers"] = [{"uri": "face.bin", "byteLength": len(gltf.binary)}] * 500
-    for _ in range(20_000):
+    for _ in range(4_000):
         gltf.node(mesh=0)
     gltf.json["asset"]["copyright"] = "x" * 1_000_000
     (tmp_path / "face.gltf").write_text(json.dumps(gltf.json))

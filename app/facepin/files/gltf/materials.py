@@ -8,6 +8,8 @@ from facepin.core.rig_builder import PartLook
 from facepin.files.gltf.document import GltfDocument
 from facepin.files.safely.checked_json import JsonObject
 
+TRANSMISSION = "KHR_materials_transmission"
+
 
 def linear_to_srgb(linear: ArrayLike) -> Points:
     """Encode linear light as sRGB, both 0..1, any shape (IEC 61966-2-1)."""
@@ -48,7 +50,7 @@ def part_look(document: GltfDocument, primitive: JsonObject, mesh: str, at: int,
     red, green, blue = (float(channel) for channel in linear_to_srgb(factor))
     colour = None if carried and (factor == 1.0).all() else (red, green, blue)
     roughness = shine.number("roughnessFactor", 1.0, low=0.0, high=1.0)
-    glass = material.child("extensions").child("KHR_materials_transmission")
+    glass = material.child("extensions").child(TRANSMISSION)
     opacity, cutout = _alpha(material, shine)
     return PartLook(
         name,

@@ -13,7 +13,7 @@ from facepin.core.arrays import Floats, Points, frozen
 from facepin.core.mesh.normals import NormalField
 from facepin.core.rig import Part, Rig, Texture
 from facepin.files.gltf.container import BINARY_CHUNK, JSON_CHUNK
-from facepin.files.gltf.materials import srgb_to_linear
+from facepin.files.gltf.materials import TRANSMISSION, srgb_to_linear
 from facepin.files.gltf.targets import COMBINATIONS
 from facepin.files.gltf.textures import CLAMP, REPEAT
 from facepin.files.safely.atomic import atomic_write
@@ -183,6 +183,8 @@ def _looks(rig: Rig, packed: _Packed) -> dict[str, Any]:
             for part in rig.parts
         ]
     }
+    if any(part.transmission for part in rig.parts):
+        looks["extensionsUsed"] = [TRANSMISSION]
     if numbers:
         looks["images"] = [
             {"bufferView": packed.picture(texture), "mimeType": "image/png"} for texture in numbers
@@ -203,7 +205,13 @@ def _material(part: Part, coloured: bool, texture: int | None) -> dict[str, Any]
         shine["baseColorFactor"] = [*map(float, base), part.opacity]
     if texture is not None:
         shine["baseColorTexture"] = {"index": texture}
-    look: dict[str, Any] = {"name": part.name, "pbrMetallicRoughness": shine, "doubleSided": True}
+    look: dict[str, Any] = {
+        "name": part.name,
+        "pbrMetallicRoughness": shine,
+        "doubleSided": part.double_sided,
+    }
+    if part.transmission:
+        look["extensions"] = {TRANSMISSION: {"transmissionFactor": part.transmission}}
     if part.blends:
         look["alphaMode"] = "BLEND"
     elif part.cutout is not None or part.opacity < 1.0:

@@ -1,5 +1,6 @@
 """Files with faults, and files that only look as if they had some."""
 
+import io
 import random
 import re
 import struct
@@ -11,10 +12,11 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from facepin.core.errors import FacepinError
 from facepin.files import open_rig
-from support.sample_files import face_arrays, face_folder, face_gltf
+from support.sample_files import POSITIONS, face_arrays, face_folder, face_gltf
 
 
 def listed(folder):
@@ -32,7 +34,7 @@ def check(rig):
     assert rig.triangles.max() < rig.vertex_count
     assert rig.parts[-1].faces.stop == len(rig.face_sizes)
     assert len(set(rig.shape_names)) == rig.shape_count == rig.deltas.shape[1] > 0
-    assert all(name.isprintable() and 0 < len(name) < 80 for name in rig.shape_names)
+    assert all(name.isprintable() and 0 < len(name) <= 256 for name in rig.shape_names)
     assert all(line.isprintable() for line in rig.warnings)
 
 
@@ -148,7 +150,7 @@ def harmed(content, dice):
     return bytes(changed)
 
 
-@pytest.mark.parametrize("kind", ["glb", "gltf", "npz", "obj"])
+@pytest.mark.parametrize("kind", ["glb", "gltf", "vrm", "npz", "obj"])
 def test_harmed_files_give_a_rig_or_one_line(tmp_path, kind):
     dice = random.Random(kind)
     folder = face_folder(tmp_path / "face")
@@ -157,6 +159,7 @@ def test_harmed_files_give_a_rig_or_one_line(tmp_path, kind):
     content = {
         "glb": lambda: face_gltf().save(tmp_path / "sound.glb").read_bytes(),
         "gltf": lambda: sound_gltf(tmp_path),
+        "vrm": lambda: avatar_gltf().save(tmp_path / "sound.vrm").read_bytes(),
         "npz": lambda: (tmp_path / "sound.npz").read_bytes(),
         "obj": lambda: (folder / "face_neutral.obj").read_bytes(),
     }[kind]()
@@ -176,6 +179,51 @@ def test_harmed_files_give_a_rig_or_one_line(tmp_path, kind):
                 check(rig)
                 outcomes["rig"] += 1
     assert min(outcomes["rig"], outcomes["line"]) > 2
+
+
+def avatar_gltf():
+    """Return the sample face with bones, a picture, an odd look, and an expression."""
+    gltf = face_gltf(skin=0)
+    picture = io.BytesIO()
+    Image.new("RGB", (4, 4), "red").save(picture, "PNG")
+    (primitive,) = gltf.json["meshes"][0]["primitives"]
+    primitive["material"] = 0
+    primitive["attributes"] |= {
+        "TEXCOORD_1": gltf.accessor(POSITIONS[:, :2].copy()),
+        "JOINTS_0": gltf.accessor(np.array([[0, 1, 0, 0]] * 4, np.uint8)),
+        "WEIGHTS_0": gltf.accessor(np.array([[0.25, 0.75, 0, 0]] * 4, np.float32)),
+    }
+    joints = [gltf.node(rotation=[0.0, 0.6, 0.0, 0.8]), gltf.node(scale=[1.0, 2.0, 1.0])]
+    matrices = np.tile(np.eye(4, dtype=np.float32).reshape(1, 16), (2, 1))
+    older = {
+        "diffuseFactor": [1.0, 0.5, 0.5, 0.5],
+        "diffuseTexture": {
+            "index": 0,
+            "texCoord": 1,
+            "extensions": {"KHR_texture_transform": {"offset": [0.5, 0.5], "scale": [2, 2], "rotation": 1}},
+        },
+    }
+    gltf.json |= {
+        "skins": [{"joints": joints, "inverseBindMatrices": gltf.accessor(matrices)}],
+        "images": [{"bufferView": gltf.view(picture.getvalue())}],
+        "samplers": [{"wrapS": 33071}],
+        "textures": [{"sampler": 0, "extensions": {"EXT_texture_webp": {"source": 0}}}],
+        "materials": [
+            {
+                "alphaMode": "MASK",
+                "alphaCutoff": 0.25,
+                "extensions": {"KHR_materials_pbrSpecularGlossiness": older},
+            }
+        ],
+        "extensions": {
+            "VRM": {
+                "blendShapeMaster": {
+                    "blendShapeGroups": [{"name": "Joy", "binds": [{"mesh": 0, "index": 1, "weight": 80}]}]
+                }
+            }
+        },
+    }
+    return gltf
 
 
 def sound_gltf(folder):

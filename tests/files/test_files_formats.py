@@ -90,10 +90,10 @@ def test_errors_of_the_system_become_a_line(tmp_path, monkeypatch):
         (MemoryError(), "memory"),
     ):
 
-        def fails(self, error=error):
+        def fails(self, mode="r", error=error):
             raise error
 
-        monkeypatch.setattr(type(path), "read_bytes", fails)
+        monkeypatch.setattr(type(path), "open", fails)
         with pytest.raises(FacepinError, match=rf"face\.glb: .*{words}"):
             open_rig(path)
 

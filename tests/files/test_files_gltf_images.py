@@ -14,6 +14,7 @@ from PIL import Image
 from facepin.core.rig import Rig, Texture
 from facepin.files import open_rig, write_model
 from facepin.files.gltf import images as gltf_images
+from facepin.files.gltf import textures as gltf_textures
 from support.sample_files import Gltf, face_gltf
 
 PLACES = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32)
@@ -98,7 +99,9 @@ def test_nothing_outside_the_folder_is_read(tmp_path: Path, uri: str) -> None:
 def test_what_is_no_picture_is_left_out(tmp_path: Path) -> None:
     whole = png(np.random.default_rng(1).integers(0, 255, (64, 64, 3)).astype(np.uint8))
     for broken in (b"", b"GIF89a" + bytes(30), whole[: len(whole) // 2], whole[:40], b"<svg/>"):
-        left_out(open_rig(textured(broken or b"x").save(tmp_path / "face.glb")), "images[0]", "PNG or JPEG")
+        left_out(
+            open_rig(textured(broken or b"x").save(tmp_path / "face.glb")), "images[0]", "PNG, JPEG or WebP"
+        )
     left_out(open_rig(textured({"uri": "gone.png"}).save(tmp_path / "face.glb")), "gone.png")
     left_out(open_rig(textured({"bufferView": 99}).save(tmp_path / "face.glb")), "bufferViews[99]")
 
@@ -112,7 +115,7 @@ def test_a_small_file_cannot_ask_for_much_memory(tmp_path: Path, monkeypatch: py
         header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
         data = chunk(b"IDAT", zlib.compress(bytes(1000))) + chunk(b"IEND", b"")
         left_out(open_rig(textured(b"\x89PNG\r\n\x1a\n" + header + data).save(tmp_path / "face.glb")), word)
-    monkeypatch.setattr(gltf_images, "MOST_PIXELS", 3)
+    monkeypatch.setattr(gltf_textures, "MOST_PIXELS", 3)
     left_out(open_rig(textured(png()).save(tmp_path / "face.glb")), "together")
 
 
@@ -202,3 +205,129 @@ def test_real_textures_are_written_once_each(shared: Path, tmp_path: Path) -> No
         np.testing.assert_array_equal(copy.texture.pixels, part.texture.pixels)
     count = len({part.texture for part in rig.parts})
     assert (tmp_path / "again.glb").read_bytes().count(b"image/png") == count
+
+
+GLASS = {"KHR_materials_transmission": {"transmissionFactor": 0.75}}
+
+
+@pytest.mark.parametrize(
+    ("material", "alpha", "found"),
+    [
+        ({}, 0.0, (1.0, False, None)),
+        ({"alphaMode": "BLEND"}, 0.0, (0.0, True, 0.5)),
+        ({"alphaMode": "BLEND"}, 0.4, (0.4, True, 0.5)),
+        ({"alphaMode": "MASK", "alphaCutoff": 0.3}, 0.4, (0.4, False, 0.3)),
+    ],
+)
+@pytest.mark.parametrize("with_picture", [True, False])
+def test_what_a_material_says_of_alpha_is_kept_and_comes_back(
+    tmp_path: Path, material: dict, alpha: float, found: tuple, with_picture: bool
+) -> None:
+    opacity, blends, cutout = found
+    gltf = textured(png(), doubleSided=True, extensions=GLASS, **material)
+    shine = gltf.json["materials"][0]["pbrMetallicRoughness"]
+    shine["baseColorFactor"] = [1, 0.5, 0.5, alpha]
+    if not with_picture:
+        del shine["baseColorTexture"]
+        opacity, cutout = (1.0 if cutout == 0.3 else opacity), None
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    write_model(rig, np.zeros(2), tmp_path / "again.glb")
+    for part in rig.parts + open_rig(tmp_path / "again.glb").parts:
+        assert (part.opacity, part.blends, part.cutout) == (pytest.approx(opacity), blends, cutout)
+        assert (part.double_sided, part.transmission) == (True, 0.75)
+
+
+def test_a_surface_without_picture_that_is_cut_away_is_not_there(tmp_path: Path) -> None:
+    gltf = face_gltf()
+    gltf.json["meshes"][0]["primitives"][0]["material"] = 0
+    shine = {"baseColorFactor": [1, 1, 1, 0.2]}
+    gltf.json["materials"] = [{"alphaMode": "MASK", "pbrMetallicRoughness": shine}]
+    (part,) = open_rig(gltf.save(tmp_path / "face.glb")).parts
+    assert (part.opacity, part.cutout, part.double_sided) == (0.0, None, False)
+
+
+def webp(gltf: Gltf, content: bytes) -> None:
+    """Name a picture by EXT_texture_webp beside what the texture has."""
+    gltf.json["images"].append({"bufferView": gltf.view(content), "mimeType": "image/webp"})
+    gltf.json["textures"][0]["extensions"] = {"EXT_texture_webp": {"source": 1}}
+
+
+@pytest.mark.parametrize("plain", ["none", "broken", "whole"])
+def test_webp_instead_of_a_plain_picture_or_beside_it(tmp_path: Path, plain: str) -> None:
+    large = np.repeat(np.repeat(PIXELS, 8, axis=0), 8, axis=1)
+    gltf = textured(png() if plain == "whole" else b"no picture")
+    webp(gltf, png(large, "WEBP"))
+    if plain == "none":
+        del gltf.json["textures"][0]["source"]
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    assert texture(rig).pixels.shape == ((2, 2, 4) if plain == "whole" else (16, 16, 4))
+    np.testing.assert_allclose(texture(rig).pixels[0, 0], [255, 0, 0, 255], atol=6)
+    assert rig.warnings == ()
+
+
+def test_where_no_picture_of_a_texture_can_be_read_one_line_says_so(tmp_path: Path) -> None:
+    gltf = textured(b"no picture")
+    webp(gltf, b"nor this")
+    left_out(open_rig(gltf.save(tmp_path / "face.glb")), "images[1]")
+    del gltf.json["textures"][0]["source"], gltf.json["textures"][0]["extensions"]
+    left_out(open_rig(gltf.save(tmp_path / "face.glb")), "textures[0].source")
+
+
+def test_the_diffuse_colour_of_specular_glossiness_is_the_base_colour(tmp_path: Path) -> None:
+    gltf = textured(png())
+    older = {"diffuseTexture": {"index": 0}, "diffuseFactor": [1.0, 0.0, 1.0, 0.5], "glossinessFactor": 0.25}
+    gltf.json["materials"] = [
+        {"alphaMode": "BLEND", "extensions": {"KHR_materials_pbrSpecularGlossiness": older}}
+    ]
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    np.testing.assert_array_equal(texture(rig).pixels[..., :3], PIXELS)
+    (part,) = rig.parts
+    assert (part.colour, part.roughness, part.opacity) == ((1.0, 0.0, 1.0), 0.75, 0.5)
+
+
+def test_a_second_set_of_coordinates(tmp_path: Path) -> None:
+    gltf = textured(png())
+    (primitive,) = gltf.json["meshes"][0]["primitives"]
+    primitive["attributes"]["TEXCOORD_1"] = gltf.accessor(1 - PLACES)
+    gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    np.testing.assert_array_equal(rig.texture_places, 1 - PLACES)
+
+
+def test_a_picture_that_many_name_is_decoded_and_kept_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gltf_textures, "MOST_PIXELS", 4)  # as many as it has
+    gltf = textured(png())
+    address = gltf.json["images"][0]
+    (tmp_path / "skin.png").write_bytes(png())
+    copy = {"bufferView": gltf.view(png())}
+    gltf.json["images"] = [address, address, copy, {"uri": "skin.png"}, {"uri": "./skin.png"}]
+    gltf.json["textures"] = [{"source": at % 5} for at in range(20)]
+    gltf.json["materials"] = [
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": at}}} for at in range(20)
+    ]
+    (primitive,) = gltf.json["meshes"][0]["primitives"]
+    gltf.json["meshes"][0]["primitives"] = [primitive | {"material": at} for at in range(20)]
+    rig = open_rig(gltf.save(tmp_path / "face.glb"))
+    assert rig.warnings == ()
+    assert len({part.texture for part in rig.parts}) == 1
+    assert rig.vertex_count == 4
+
+
+@pytest.mark.parametrize("size", [8, 40])
+@pytest.mark.parametrize("mode", ["I;16", "L", "LA", "P", "1", "RGBA"])
+def test_pictures_of_every_kind_keep_their_brightness(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: str, size: int
+) -> None:
+    monkeypatch.setattr(gltf_images, "KEPT", 16)
+    monkeypatch.setattr(gltf_images, "STRIP", 100)
+    if mode == "I;16":
+        picture = Image.fromarray(np.full((size, size), 0x4080, np.uint16))
+    else:
+        picture = Image.new("L", (size, size), 255 if mode == "1" else 0x40).convert(mode)
+    file = io.BytesIO()
+    picture.save(file, "PNG")
+    pixels = texture(open_rig(textured(file.getvalue()).save(tmp_path / "face.glb"))).pixels
+    assert pixels.shape == (min(size, 14), min(size, 14), 4)
+    assert (pixels == (*[255 if mode == "1" else 0x40] * 3, 255)).all()

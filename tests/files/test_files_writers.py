@@ -12,7 +12,8 @@ import trimesh
 from facepin.core.errors import FacepinError
 from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files import WRITERS, open_rig, write_model
-from support.sample_files import dense
+from facepin.files.work.pose_file import read_pose
+from support.sample_files import POSITIONS, TRIANGLES, dense
 
 
 def grid_rig(side=6, shapes=5, seed=1, **more):
@@ -188,3 +189,38 @@ def test_real_rigs_come_back(tmp_path, shared):
     assert (back.deltas != rig.deltas).nnz == 0
     assert np.array_equal(back.triangles, rig.triangles)
     assert back.rest_weights == pytest.approx(weights)
+
+
+LONG = "Genesis9_head_bs_FACS_corrective_MouthSmileWide_MouthUpperUp_JawOpen_MouthStretch"
+TRUE_NAMES = (
+    f"{LONG}_Left",
+    f"{LONG}_Right",
+    "  leading space",
+    "two  blanks",
+    "zwj\u200dname",
+    "mouth\x1b[2J",
+)
+
+
+def test_names_are_written_as_they_came_and_found_by_that(tmp_path):
+    shapes = [(name, np.full((4, 3), at + 1.0)) for at, name in enumerate(TRUE_NAMES)]
+    rig = build_rig("face", POSITIONS, TRIANGLES.ravel(), [3, 3], shapes)
+    write_model(rig, np.zeros(rig.shape_count), tmp_path / "face.glb")
+    again = open_rig(tmp_path / "face.glb")
+    assert again.names_outside == again.file_names == TRUE_NAMES
+    assert again.shape_names == rig.shape_names
+    assert rig.shape_names == (*TRUE_NAMES[:2], "leading space", "two blanks", "zwjname", "mouth")
+    saved = {"format": "facepin-pose", "version": 1, "weights": dict.fromkeys(TRUE_NAMES, 0.5)}
+    for suffix, content in (
+        ("json", json.dumps(saved)),
+        ("csv", "shape,weight\n" + "".join(f'"{name}",0.5\n' for name in TRUE_NAMES)),
+    ):
+        (tmp_path / f"pose.{suffix}").write_text(content)
+        pose, report = read_pose(tmp_path / f"pose.{suffix}", again)
+        assert pose.weights.tolist() == [0.5] * 6, report
+
+
+def test_a_name_that_repeats_is_written_as_it_is_told_apart_here(tmp_path):
+    shapes = [(name, np.full((4, 3), at + 1.0)) for at, name in enumerate(["smile", "smile", ""])]
+    rig = build_rig("face", POSITIONS, TRIANGLES.ravel(), [3, 3], shapes)
+    assert rig.names_outside == rig.shape_names == ("smile", "smile 2", "shape_2")

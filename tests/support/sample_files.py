@@ -74,7 +74,7 @@ class Gltf:
 
     def save(self, path: Path) -> Path:
         if self.binary:
-            self.json["buffers"] = [{"byteLength": len(self.binary)}]
+            self.json["buffers"] = [{"byteLength": len(self.binary)}, *self.json.get("buffers", [])[1:]]
         text = json.dumps(self.json).encode()
         text += b" " * (-len(text) % 4)
         chunks = struct.pack("<I4s", len(text), b"JSON") + text

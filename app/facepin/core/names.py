@@ -4,22 +4,26 @@ import re
 from collections.abc import Sequence
 
 LONGEST = 64
+LONGEST_SHAPE = 256
+"""Exporters chain the names of correctives, and what tells the left from the right is at their end."""
 MOST_LISTED = 6
 TERMINAL_CODE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
-def clean_name(name: str) -> str:
-    """Return `name` without what cannot be seen, blanks folded, shortened to 64 characters; maybe empty.
+def clean_name(name: str, longest: int = LONGEST) -> str:
+    """Return `name` without what cannot be seen, blanks folded, shortened to `longest`; maybe empty.
 
     Dropped are control, format and direction characters and terminal codes.
     """
-    name = TERMINAL_CODE.sub("", name[: 16 * LONGEST])
+    name = TERMINAL_CODE.sub("", name[: 16 * longest])
     visible = "".join(c for c in name if c.isprintable() or c.isspace())
     visible = " ".join(visible.split())
-    return visible if len(visible) <= LONGEST else visible[: LONGEST - 1].rstrip() + "…"
+    return visible if len(visible) <= longest else visible[: longest - 1].rstrip() + "…"
 
 
-def clean_names(names: Sequence[str], *, unnamed: str = "shape") -> tuple[list[str], list[str]]:
+def clean_names(
+    names: Sequence[str], *, unnamed: str = "shape", longest: int = LONGEST
+) -> tuple[list[str], list[str]]:
     """Clean all `names` and make them unique: empty becomes shape_j, a repeated one gets " 2", " 3", ….
 
     Returns
@@ -32,10 +36,10 @@ def clean_names(names: Sequence[str], *, unnamed: str = "shape") -> tuple[list[s
     taken = set[str]()
     clean = []
     numbered, mended, empty = [], [], []
-    wanted = {clean_name(name) for name in names}
+    wanted = {clean_name(name, longest) for name in names}
     next_number = dict[str, int]()
     for j, name in enumerate(names):
-        base = clean_name(name)
+        base = clean_name(name, longest)
         if not base:
             base = f"{unnamed}_{j}"
             while base in wanted:

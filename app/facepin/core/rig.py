@@ -1,5 +1,6 @@
 """The rig: a neutral face and the deltas of its shapes, as one immutable value."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -39,7 +40,15 @@ class Part:
     texture: Texture | None = None
     """Multiplies the base colour, where `Rig.texture_places` says."""
     cutout: float | None = None
-    """Alpha of the texture below which there is nothing; None for what is solid."""
+    """Alpha of the texture times `opacity` below which there is nothing; None for what is solid."""
+    opacity: float = 1.0
+    """Alpha of the whole part, 0 nothing is there .. 1; multiplies that of the texture."""
+    blends: bool = False
+    """What is behind it shows through it by its alpha; `cutout` is then where to cut it instead."""
+    transmission: float = 0.0
+    """Share of the light that goes straight through its surface, as through glass, 0 .. 1."""
+    double_sided: bool = True
+    """Whether the file lets it be seen from behind too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +69,7 @@ class Rig:
     3 v + c its coordinate c at vertex v.  Then one column for each combination.  Indices sorted, exact zeros
     dropped."""
     shape_names: tuple[str, ...]
-    """k names, unique and printable."""
+    """k names, unique and printable: what shapes are called here."""
     corners: Indices
     """(sum of face_sizes,) int32, vertex index of every face corner, face after face."""
     face_sizes: Indices
@@ -75,6 +84,8 @@ class Rig:
     """(k,) weights the file itself asks for, mostly zeros."""
     combinations: Indices = field(default_factory=lambda: frozen(np.zeros((0, 2)), np.int32))
     """(c, 2) int32, the two shapes a and b, a < b, of each combination."""
+    file_names: tuple[str, ...] = ()
+    """k names as the file has them, which may be empty, repeat, or hold what cannot be shown."""
     ties: tuple[tuple[int, int], ...] = ()
     """Pairs (a, b) of shapes: a is made to be used with at most as much of it as of b."""
     colours: Points | None = None
@@ -82,6 +93,12 @@ class Rig:
     texture_places: Points | None = None
     """(n, 2) float32, where each vertex is in the textures: 0, 0 first corner of the first row, 1, 1 last of
     the last; or None."""
+    up: tuple[float, float, float] | None = None
+    """Unit vector towards the top of the head, where the file says; None where it does not."""
+    front: tuple[float, float, float] | None = None
+    """Unit vector from the face towards whom it looks at, where the file says; None where it does not."""
+    poses: tuple[tuple[str, Floats], ...] = ()
+    """Poses that the file brings: titles, each once, and weights (k,), read-only."""
     warnings: tuple[str, ...] = ()
     """What the reader had to mend or leave out, one line each."""
     source: Path | None = None
@@ -95,6 +112,18 @@ class Rig:
     def shape_count(self) -> int:
         """Number of shapes k."""
         return len(self.shape_names)
+
+    @cached_property
+    def names_outside(self) -> tuple[str, ...]:
+        """k names that other programs know the shapes by: those of the file where they tell shapes apart."""
+        counts = Counter(self.file_names)
+        pairs = zip(self.file_names or self.shape_names, self.shape_names, strict=True)
+        return tuple(outside if counts[outside] == 1 and outside else name for outside, name in pairs)
+
+    def names_here(self, names: Sequence[str]) -> list[str]:
+        """Return `names`, but as `shape_names` has them those that only `names_outside` knows."""
+        here = dict(zip(self.names_outside, self.shape_names, strict=True))
+        return [here.get(name, name) for name in names]
 
     @property
     def combination_names(self) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.delta_columns import Delta, checked_points, delta_columns, side_by_side
 from facepin.core.errors import FacepinError
-from facepin.core.names import clean_name, clean_names, listed
+from facepin.core.names import LONGEST_SHAPE, clean_name, clean_names, listed
 from facepin.core.rig import Part, Rig, Texture
 
 Pair = tuple[int, int]
@@ -32,6 +32,10 @@ class PartLook:
     roughness: float = Part.roughness
     texture: Texture | None = None
     cutout: float | None = None
+    opacity: float = 1.0
+    blends: bool = False
+    transmission: float = 0.0
+    double_sided: bool = True
 
 
 def build_rig(
@@ -48,6 +52,8 @@ def build_rig(
     texture_places: ArrayLike | None = None,
     limits: ArrayLike | None = None,
     rest_weights: ArrayLike | None = None,
+    up: tuple[float, float, float] | None = None,
+    front: tuple[float, float, float] | None = None,
     warnings: Iterable[str] = (),
     source: Path | None = None,
 ) -> Rig:
@@ -76,6 +82,8 @@ def build_rig(
         0..1 when left out; widened where a rest weight lies outside.
     rest_weights : (k,)
         Weights the file itself asks for.
+    up, front : unit vectors
+        Which way is up, and which way the face looks, where the file says.
 
     Raises
     ------
@@ -100,7 +108,7 @@ def build_rig(
     columns = delta_columns(where, shapes, len(positions))
     if not columns.names:
         raise FacepinError(f"{where}: no shapes, only a neutral; allowed are one or more")
-    shape_names, remarks = clean_names(columns.names)
+    shape_names, remarks = clean_names(columns.names, longest=LONGEST_SHAPE)
     if columns.equal:
         pairs = [f"{shape_names[i]} and {shape_names[j]}" for i, j in columns.equal]
         remarks.append(f"equal shapes, which no solver can tell apart: {listed(pairs)}")
@@ -134,12 +142,15 @@ def build_rig(
         parts=_parts(looks, part_of_face, sizes),
         limits=frozen(allowed, np.float64),
         rest_weights=rest,
+        file_names=tuple(columns.names),
         ties=_ties(shape_names),
         combinations=frozen(np.reshape(combined, (-1, 2)), np.int32),
         colours=None if colours is None else _colours(where, colours, len(positions)),
         texture_places=None
         if texture_places is None
         else _texture_places(where, texture_places, len(positions)),
+        up=up,
+        front=front,
         warnings=_few([*warnings, *remarks]),
         source=source,
     )
@@ -230,7 +241,21 @@ def _parts(looks: Sequence[PartLook], part_of_face: NDArray[np.intp], sizes: Ind
         if start < stop:
             triangles = range(int(triangle_ends[start]), int(triangle_ends[stop]))
             faces = range(start, stop)
-            parts.append(Part(name, faces, triangles, look.colour, look.roughness, look.texture, look.cutout))
+            parts.append(
+                Part(
+                    name,
+                    faces,
+                    triangles,
+                    look.colour,
+                    look.roughness,
+                    look.texture,
+                    look.cutout,
+                    look.opacity,
+                    look.blends,
+                    look.transmission,
+                    look.double_sided,
+                )
+            )
     return tuple(parts)
 
 

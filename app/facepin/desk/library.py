@@ -90,11 +90,15 @@ class Library:
         return None if self.folder is None else self.folder / f"{pose.key}.png"
 
     def read_again(self) -> None:
-        """Begin to read what is in the folder and not known yet: files may come from elsewhere."""
+        """Begin to read what is in the folder and not known yet: files may come from elsewhere.
+
+        Poses that the rig's own file brings stand among them until they are changed: then they have files.
+        """
         self.complaints.clear()
         if self.folder is not None:
             places = [self.folder] if self._shared is None else [self.folder, self._shared]
-            self._reading = chain(*(files.saved_poses(each, self._rig, self._stored) for each in places))
+            saved = (files.saved_poses(each, self._rig, self._stored) for each in places)
+            self._reading = chain(*saved, files.given_poses(self._rig))
 
     def read_all(self) -> None:
         """Read what is not read yet."""
@@ -166,7 +170,7 @@ class Library:
                 if wanted is None:
                     files.remove_saved(self.folder, key)
                     del self._written[key]
-                    self._refuse_shared(key)
+                    self._refuse_lasting(key)
                 else:
                     files.write_saved(self.folder, wanted)
                     self._written[key] = wanted
@@ -189,8 +193,10 @@ class Library:
             raise FacepinError(self.remark)
         return self.folder
 
-    def _refuse_shared(self, key: str) -> None:
+    def _refuse_lasting(self, key: str) -> None:
         """Say of a pose that was removed that its file is where nothing can be removed."""
+        if any(pose.key == key for pose in files.given_poses(self._rig)):
+            raise FacepinError(f"'{key}' is in the rig's own file, so it will be there again next time")
         if self._shared is not None and (self._shared / f"{key}.json").exists():
             raise FacepinError(f"{self._shared}: read-only, so '{key}' will be there again next time")
 

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from facepin.core.arrays import Points
 from facepin.core.delta_columns import Delta
 from facepin.core.errors import FacepinError
-from facepin.files.gltf.document import COMPRESSIONS, GltfDocument, refuse_compression
+from facepin.files.gltf.compression import COMPONENTS
+from facepin.files.gltf.document import GltfDocument
 from facepin.files.safely.checked_json import JsonObject
 
-COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 UNSIGNED = (5121, 5123, 5125)
 
@@ -62,6 +62,14 @@ def read_indices(document: GltfDocument, index: int, below: int) -> NDArray[np.u
     return indices
 
 
+def read_quadruples(document: GltfDocument, index: int) -> NDArray[np.uint32]:
+    """Return a VEC4 accessor of unsigned integers, (count, 4) uint32: which joints move a vertex."""
+    entry = _entry(document, index, ("VEC4",))
+    if entry.integer("componentType") not in UNSIGNED:
+        entry.refuse("componentType", "5121, 5123 or 5125 for joints")
+    return _dense(document, entry).astype(np.uint32)
+
+
 def read_delta(document: GltfDocument, index: int, vertices: int) -> Delta:
     """Return a VEC3 accessor of `vertices` elements as a delta, a pair where only what moves is stored."""
     entry = _entry(document, index, ("VEC3",))
@@ -73,7 +81,6 @@ def read_delta(document: GltfDocument, index: int, vertices: int) -> Delta:
         last = np.append(np.diff(places[order]) != 0, True)
         return places[order][last], _normalised(values[order][last], entry)
     if "bufferView" not in entry:
-        _refuse_draco_gap(document)
         return np.zeros(0, np.int32), np.zeros((0, 3), np.float32)
     return _normalised(_dense(document, entry), entry)
 
@@ -95,7 +102,6 @@ def _dense(document: GltfDocument, entry: JsonObject) -> Numbers:
     if "bufferView" in entry:
         values = _view(document, entry, count, width, component)
     else:
-        _refuse_draco_gap(document)
         if count > document.size:
             entry.refuse("count", f"{document.size} at most without a bufferView, as the file has bytes")
         values = np.zeros((count, width), component)
@@ -129,8 +135,6 @@ def _view(
     buffer_index = view.integer("buffer")
     if buffer_index >= len(document.buffers):
         view.refuse("buffer", f"0 to {len(document.buffers) - 1}")
-    if "EXT_meshopt_compression" in view.child("extensions"):
-        refuse_compression("EXT_meshopt_compression", view.where)
     buffer = document.buffers[buffer_index]
     start, length = view.integer("byteOffset", 0), view.integer("byteLength", low=1)
     if start + length > len(buffer):
@@ -156,10 +160,3 @@ def _normalised(values: Numbers, entry: JsonObject) -> Points:
         return floats
     floats = floats / np.float32(np.iinfo(values.dtype).max)
     return np.maximum(floats, np.float32(-1.0))
-
-
-def _refuse_draco_gap(document: GltfDocument) -> None:
-    """An accessor without data is zeros, unless the data went into a compressed block."""
-    for extension in document.root.strings("extensionsUsed"):
-        if extension in COMPRESSIONS and COMPRESSIONS[extension] == "Draco":
-            refuse_compression(extension, document.root.where)

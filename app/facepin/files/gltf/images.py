@@ -1,19 +1,11 @@
-"""The pictures that colour a glTF, decoded with care: files from strangers inside of files from strangers.
-
-What cannot be used is left out with a warning; the face opens all the same.
-"""
+"""Pictures decoded with care: files from strangers inside of files from strangers."""
 
 import io
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from facepin.core.arrays import Points, frozen
 from facepin.core.errors import FacepinError
-from facepin.core.rig import Texture
-from facepin.files.gltf.accessors import read_floats, view_bytes
-from facepin.files.gltf.document import GltfDocument, read_uri
-from facepin.files.safely.checked_json import JsonObject
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -21,126 +13,96 @@ if TYPE_CHECKING:
 LARGEST = 8192
 """Width and height up to which pictures are read."""
 KEPT = 2048
-"""Width and height up to which they stay as they are; larger ones are halved until they fit."""
-MOST_PIXELS = 2 * LARGEST**2
-"""Of all pictures of a file together: a few bytes can unfold to very many."""
-MOST_BYTES = 256 << 20
-"""Size of a picture's file."""
-FORMATS = ("PNG", "JPEG")
-"""What glTF allows."""
-REPEAT, CLAMP = 10497, 33071
-"""glTF's words for a picture that goes on beyond its edges, and for one whose edge does."""
+"""Width and height up to which they stay as they are; larger ones are made smaller by a whole number."""
+FORMATS = ("PNG", "JPEG", "WEBP")
+"""What glTF allows, itself or by EXT_texture_webp."""
+KTX2 = b"\xabKTX 20\xbb\r\n\x1a\n"
+"""How pictures begin that KHR_texture_basisu allows."""
+STRIP = 1 << 20
+"""Pixels of a large picture that are made smaller at a time."""
+
+Pixels = np.ndarray[tuple[int, ...], np.dtype[np.uint8]]
 
 
-class Textures:
-    """The textures of one file; each picture is decoded once."""
+def read_picture(content: bytes, where: str, most: int) -> tuple[Pixels, int]:
+    """Return RGBA pixels (h, w, 4), sRGB, and how many the file has, at most `most`.
 
-    def __init__(self, document: GltfDocument, warnings: list[str]) -> None:
-        """Prepare; `warnings` grows by a line for each picture that is left out."""
-        self._document = document
-        self._warnings = warnings
-        self._made: dict[int, Texture | None] = {}
-        self._pixels = 0
-
-    def base_colour(self, shine: JsonObject) -> Texture | None:
-        """Return the base colour texture of a `pbrMetallicRoughness`, or None where there is none to use."""
-        if "baseColorTexture" not in shine:
-            return None
-        index = shine.child("baseColorTexture").integer("index")
-        if index not in self._made:
-            self._made[index] = None
-            try:
-                self._made[index] = self._texture(index)
-            except FacepinError as error:
-                self._warnings.append(f"a texture is left out: {error}")
-        return self._made[index]
-
-    def _texture(self, index: int) -> Texture:
-        root = self._document.root
-        entry = root.children("textures")[index]
-        image = root.children("images")[entry.integer("source")]
-        sampler = entry.optional_integer("sampler")
-        wrap = root.children("samplers")[sampler] if sampler is not None else JsonObject({}, entry.where)
-        repeats = (wrap.integer("wrapS", REPEAT) != CLAMP, wrap.integer("wrapT", REPEAT) != CLAMP)
-        pixels = self._decoded(self._content(image), image.where)
-        return Texture(frozen(pixels, np.uint8), repeats)
-
-    def _content(self, image: JsonObject) -> bytes:
-        if "uri" in image:
-            return bytes(read_uri(image, self._document.path, MOST_BYTES))
-        return bytes(view_bytes(self._document, image.integer("bufferView")))
-
-    def _decoded(self, content: bytes, where: str) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
-        """Return RGBA pixels (h, w, 4), sRGB."""
-        from PIL import Image
-
-        try:
-            with Image.open(io.BytesIO(content), formats=FORMATS) as picture:
-                self._check_size(picture, where)
-                picture.draft("RGB", (KEPT, KEPT))  # JPEG alone: decodes no more than is kept
-                small = picture.reduce(-(-max(picture.size) // KEPT)) if _is_plain(picture) else picture
-                pixels = small.convert("RGBA")
-        except FacepinError:
-            raise
-        except Exception as error:  # Pillow raises whatever its decoders stumble over
-            reason = f"{type(error).__name__}: {' '.join(str(error).split())[:120]}"
-            raise FacepinError(f"{where}: no readable PNG or JPEG ({reason})") from error
-        if (most := max(pixels.size)) > KEPT:
-            pixels = pixels.reduce(-(-most // KEPT))
-        return np.asarray(pixels)
-
-    def _check_size(self, picture: "Image", where: str) -> None:
-        """Refuse, before anything is decoded, what would take too much memory."""
-        width, height = picture.size
-        if max(width, height) > LARGEST:
-            raise FacepinError(f"{where}: {width}x{height} pixels, allowed are {LARGEST}x{LARGEST}")
-        self._pixels += width * height
-        if self._pixels > MOST_PIXELS:
-            raise FacepinError(
-                f"{where}: the pictures have more than {MOST_PIXELS >> 20} million pixels together"
-            )
-
-
-def _is_plain(picture: "Image") -> bool:
-    """Say whether a large picture can be made smaller as it is, before it takes four bytes a pixel."""
-    return max(picture.size) > KEPT and picture.mode in ("L", "LA", "RGB", "RGBA")
-
-
-def cutout(document: GltfDocument, primitive: JsonObject) -> float | None:
-    """Return the alpha below which the material of a primitive shows nothing, None where it is solid.
-
-    What is meant to be blended is cut as well: order does not matter then, and cards of lashes look right.
+    Raises
+    ------
+    FacepinError
+        For what is no picture, or too large a one; nothing is decoded then.
     """
-    material = document.root.children("materials")[primitive.integer("material")]
-    mode = material.text("alphaMode", "OPAQUE")
-    if mode == "OPAQUE":
-        return None
-    return material.number("alphaCutoff", 0.5, low=0.0, high=1.0) if mode == "MASK" else 0.5
+    if content.startswith(KTX2):
+        return _basis_picture(content, where, most)
+    from PIL import Image
+
+    try:
+        with Image.open(io.BytesIO(content), formats=FORMATS) as picture:
+            count = _checked_size(*picture.size, where, most)
+            picture.draft("RGB", (KEPT, KEPT))  # JPEG alone: decodes no more than is kept
+            return _small_enough(picture), count
+    except FacepinError:
+        raise
+    except Exception as error:  # Pillow raises whatever its decoders stumble over
+        raise FacepinError(f"{where}: no readable PNG, JPEG or WebP ({_reason(error)})") from error
 
 
-def texture_places(
-    document: GltfDocument, primitive: JsonObject, shine: JsonObject, count: int
-) -> Points | None:
-    """Return where the vertices of a primitive are in its texture, (count, 2), or None if it does not say.
+def _checked_size(width: int, height: int, where: str, most: int) -> int:
+    """Return the number of pixels; refuse, before anything is decoded, what would take too much memory."""
+    if max(width, height) > LARGEST:
+        raise FacepinError(f"{where}: {width}x{height} pixels, allowed are {LARGEST}x{LARGEST}")
+    if width * height > most:
+        raise FacepinError(f"{where}: the pictures of the file have too many pixels together")
+    return width * height
 
-    0, 0 is the first corner of the first row, 1, 1 the last of the last.
-    """
-    entry = shine.child("baseColorTexture")
-    moved = entry.child("extensions").child("KHR_texture_transform")
-    number = moved.integer("texCoord", entry.integer("texCoord", 0))
-    index = primitive.child("attributes").optional_integer(f"TEXCOORD_{number}")
-    if index is None:
-        return None
-    places = read_floats(document, index, ("VEC2",))
-    if len(places) != count:
+
+def _small_enough(picture: "Image") -> Pixels:
+    """Return RGBA pixels; a large picture becomes smaller strip by strip, whatever its mode takes."""
+    width, height = picture.size
+    factor = -(-max(width, height) // KEPT)
+    if factor == 1:
+        return np.asarray(_of_bytes(picture).convert("RGBA"))
+    rows = factor * max(1, STRIP // (factor * width))
+    strips = []
+    for top in range(0, height, rows):
+        strip = _of_bytes(picture.crop((0, top, width, min(top + rows, height))))
+        strips.append(np.asarray(strip.convert("RGBA").reduce(factor)))
+    return np.concatenate(strips)
+
+
+def _of_bytes(picture: "Image") -> "Image":
+    """Return a picture of one byte a channel; one of 16 bits would only be cut off at 255."""
+    if not picture.mode.startswith("I"):
+        return picture
+    from PIL import Image
+
+    return Image.fromarray((np.clip(np.asarray(picture), 0, 65535) >> 8).astype(np.uint8))
+
+
+def _basis_picture(content: bytes, where: str, most: int) -> tuple[Pixels, int]:
+    """Return the largest level of a KTX2 picture that is kept as it is, else the smallest, made smaller."""
+    from PIL import Image
+
+    try:
+        import opengl_basisu
+    except ImportError as error:
         raise FacepinError(
-            f"{primitive.where}: TEXCOORD_{number} has {len(places)} elements, POSITION has {count}"
-        )
-    if moved.values:
-        scale = np.array(moved.numbers("scale", 2) if "scale" in moved else (1, 1))
-        offset = np.array(moved.numbers("offset", 2) if "offset" in moved else (0, 0))
-        turn = moved.number("rotation", 0.0)
-        c, s = np.cos(turn), np.sin(turn)
-        with np.errstate(all="ignore"):
-            places = (places * scale @ np.array([[c, -s], [s, c]]) + offset).astype(np.float32)
-    return np.where(np.isfinite(places), places, 0).astype(np.float32)
+            f'{where}: a KTX2 picture: either install what reads it, pip install "facepin[compressed]", or '
+            "change it, gltf-transform ktxdecompress IN.glb OUT.glb"
+        ) from error
+    try:
+        picture: Any = opengl_basisu.open(content)
+        count = _checked_size(picture.width, picture.height, where, most)
+        level = 0
+        while max(picture.width, picture.height) >> level > KEPT and level + 1 < picture.levels:
+            level += 1
+        pixels = np.asarray(picture.transcode("rgba8", level=level).data, np.uint8)
+        return _small_enough(Image.fromarray(pixels)), count
+    except FacepinError:
+        raise
+    except Exception as error:  # whatever the library stumbles over
+        raise FacepinError(f"{where}: no readable KTX2 picture ({_reason(error)})") from error
+
+
+def _reason(error: Exception) -> str:
+    return f"{type(error).__name__}: {' '.join(str(error).split())[:120]}"

@@ -13,6 +13,8 @@ from facepin.files.gltf.document import GltfDocument
 from facepin.files.safely.checked_json import JsonObject
 
 LARGEST = 1e30
+MESH = 32
+"""How many vertices a mesh at a node counts for at least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,13 +26,19 @@ class Placed:
     mesh_index: int
     matrix: Floats
     """(4, 4) from mesh to scene, acting on columns."""
+    joints: Floats | None
+    """(j, 4, 4) the same for each joint of its skin, which count instead; None without a skin."""
+
+    @property
+    def name(self) -> str:
+        """What the mesh is called, or else its node."""
+        return self.mesh.text("name", "") or self.node.text("name", "") or f"mesh {self.mesh_index}"
 
 
 def placed_meshes(document: GltfDocument) -> list[Placed]:
     """Return the meshes of the scene in the order in which the node tree is walked.
 
-    A skinned mesh does not follow its node.  At rest all its bones give one and the same matrix, so that of
-    the first bone places it.
+    A skinned mesh does not follow its node but the joints of its skin, as they stand in the file.
 
     Raises
     ------
@@ -39,8 +47,10 @@ def placed_meshes(document: GltfDocument) -> list[Placed]:
     """
     root = document.root
     nodes, meshes = root.children("nodes"), root.children("meshes")
+    document.check_growth(MESH * sum("mesh" in node for node in nodes), "meshes")
     world = dict(_world_matrices(root))
     placed = []
+    joints: dict[int, Floats] = {}
     for index, matrix in world.items():
         node = nodes[index]
         mesh_index = node.optional_integer("mesh")
@@ -48,10 +58,23 @@ def placed_meshes(document: GltfDocument) -> list[Placed]:
             continue
         if mesh_index >= len(meshes):
             node.refuse("mesh", f"0 to {len(meshes) - 1}" if len(meshes) else "nothing, there are no meshes")
-        if "skin" in node:
-            matrix = _skin_matrix(document, node.integer("skin"), world)
-        placed.append(Placed(node, meshes[mesh_index], mesh_index, matrix))
+        skin = node.optional_integer("skin")
+        if skin is not None and skin not in joints:
+            joints[skin] = _joint_matrices(document, skin, world)
+        bones = None if skin is None else joints[skin]
+        placed.append(Placed(node, meshes[mesh_index], mesh_index, matrix, bones))
     return placed
+
+
+def avatar_front(document: GltfDocument) -> tuple[float, float, float] | None:
+    """Return which way the face of an avatar looks, None where the file is not said to be one.
+
+    VRM 0 looks along -z, VRM 1 along z; y is up in both.  That glTF itself has the front at z binds few.
+    """
+    extensions = document.root.child("extensions")
+    if "VRMC_vrm" in extensions:
+        return 0.0, 0.0, 1.0
+    return (0.0, 0.0, -1.0) if "VRM" in extensions else None
 
 
 def _world_matrices(root: JsonObject) -> Iterator[tuple[int, Floats]]:
@@ -76,7 +99,7 @@ def _world_matrices(root: JsonObject) -> Iterator[tuple[int, Floats]]:
                 f"{nodes.where}[{index}] is reached twice: a cycle or two parents, allowed is a tree"
             )
         seen.add(index)
-        matrix = _product(parent, _local_matrix(nodes[index]), f"{nodes.where}[{index}]")
+        matrix = product(parent, _local_matrix(nodes[index]), f"{nodes.where}[{index}]")
         yield index, matrix
         waiting += [(child, matrix) for child in reversed(children[index])]
 
@@ -111,20 +134,26 @@ def _rotation(node: JsonObject) -> NDArray[np.float64]:
     )
 
 
-def _skin_matrix(document: GltfDocument, index: int, world: dict[int, Floats]) -> Floats:
+def _joint_matrices(document: GltfDocument, index: int, world: dict[int, Floats]) -> Floats:
+    """Return what carries by each joint, (j, 4, 4) from mesh to scene; one not in it moves nothing."""
     skin = document.root.children("skins")[index]
     joints = skin.indices("joints", len(document.root.children("nodes")) - 1)
-    if not joints or joints[0] not in world:
-        return np.eye(4)
-    matrix = world[joints[0]]
+    inverse = np.broadcast_to(np.eye(4), (len(joints), 4, 4))
     binding = skin.optional_integer("inverseBindMatrices")
     if binding is not None:
-        inverse = read_floats(document, binding, ("MAT4",))[0].reshape(4, 4).T.astype(np.float64)
-        matrix = _product(matrix, inverse, skin.where)
-    return matrix
+        columns = read_floats(document, binding, ("MAT4",))
+        if len(columns) < len(joints):
+            raise FacepinError(f"{skin.where}: {len(columns)} inverseBindMatrices for {len(joints)} joints")
+        inverse = columns[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float64)
+    matrices = np.broadcast_to(np.eye(4), (len(joints), 4, 4)).copy()
+    for at, joint in enumerate(joints):
+        if joint in world:
+            matrices[at] = product(world[joint], inverse[at], skin.where)
+    return matrices
 
 
-def _product(left: Floats, right: Floats, where: str) -> Floats:
+def product(left: Floats, right: Floats, where: str) -> Floats:
+    """Return the product of two transforms; `FacepinError` where its numbers leave all bounds."""
     with np.errstate(all="ignore"):
         product: Floats = left @ right
     if not np.abs(product).max() <= LARGEST:

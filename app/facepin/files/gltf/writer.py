@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from facepin.core.arrays import Floats, Points, frozen
 from facepin.core.mesh.normals import NormalField
 from facepin.core.rig import Part, Rig, Texture
-from facepin.files.gltf.document import BINARY_CHUNK, JSON_CHUNK
-from facepin.files.gltf.images import CLAMP, REPEAT
-from facepin.files.gltf.materials import srgb_to_linear
+from facepin.files.gltf.container import BINARY_CHUNK, JSON_CHUNK
+from facepin.files.gltf.materials import TRANSMISSION, srgb_to_linear
 from facepin.files.gltf.targets import COMBINATIONS
+from facepin.files.gltf.textures import CLAMP, REPEAT
 from facepin.files.safely.atomic import atomic_write
 
 FLOAT, SHORT, LONG = 5126, 5123, 5125
@@ -78,7 +78,7 @@ def write_glb(rig: Rig, weights: Floats, path: Path) -> None:
 
 def _extras(rig: Rig) -> dict[str, Any]:
     """Return the names of all targets, and of which shapes the combinations among them are."""
-    names = [*rig.shape_names, *rig.combination_names]
+    names = [*rig.names_outside, *rig.combination_names]
     combined = [
         {"target": rig.shape_count + i, "shapes": [a, b]}
         for i, (a, b) in enumerate(rig.combinations.tolist())
@@ -183,6 +183,8 @@ def _looks(rig: Rig, packed: _Packed) -> dict[str, Any]:
             for part in rig.parts
         ]
     }
+    if any(part.transmission for part in rig.parts):
+        looks["extensionsUsed"] = [TRANSMISSION]
     if numbers:
         looks["images"] = [
             {"bufferView": packed.picture(texture), "mimeType": "image/png"} for texture in numbers
@@ -197,13 +199,24 @@ def _looks(rig: Rig, packed: _Packed) -> dict[str, Any]:
 
 def _material(part: Part, coloured: bool, texture: int | None) -> dict[str, Any]:
     """Return the material of a part; white where the vertices carry the colour."""
+    base = (1.0, 1.0, 1.0) if part.colour is None or coloured else srgb_to_linear(part.colour)
     shine: dict[str, Any] = {"metallicFactor": 0.0, "roughnessFactor": part.roughness}
-    if part.colour is not None and not coloured:
-        shine["baseColorFactor"] = [*map(float, srgb_to_linear(part.colour)), 1.0]
+    if (part.colour is not None and not coloured) or part.opacity < 1.0:
+        shine["baseColorFactor"] = [*map(float, base), part.opacity]
     if texture is not None:
         shine["baseColorTexture"] = {"index": texture}
-    cut = {} if part.cutout is None else {"alphaMode": "MASK", "alphaCutoff": part.cutout}
-    return {"name": part.name, "pbrMetallicRoughness": shine, "doubleSided": True, **cut}
+    look: dict[str, Any] = {
+        "name": part.name,
+        "pbrMetallicRoughness": shine,
+        "doubleSided": part.double_sided,
+    }
+    if part.transmission:
+        look["extensions"] = {TRANSMISSION: {"transmissionFactor": part.transmission}}
+    if part.blends:
+        look["alphaMode"] = "BLEND"
+    elif part.cutout is not None or part.opacity < 1.0:
+        look |= {"alphaMode": "MASK", "alphaCutoff": 0.5 if part.cutout is None else part.cutout}
+    return look
 
 
 def _container(document: dict[str, Any], binary: bytes) -> bytes:

@@ -71,7 +71,7 @@ def _on_rig(
     values = np.zeros(rig.shape_count)
     unknown = []
     for (name, weight), place in zip(
-        weights.items(), match_shapes(list(weights), rig.shape_names), strict=True
+        weights.items(), match_shapes(rig.names_here(list(weights)), rig.shape_names), strict=True
     ):
         if place is None:
             unknown.append(name)

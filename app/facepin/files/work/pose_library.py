@@ -97,6 +97,14 @@ def saved_poses(folder: Path, rig: Rig, known: Collection[str] = ()) -> Iterator
         yield error
 
 
+def given_poses(rig: Rig) -> Iterator[SavedPose]:
+    """Return the poses that the file of a rig brings as a library holds them; none has a file of its own."""
+    taken: list[str] = []
+    for title, weights in rig.poses:
+        taken.append(free_key(title, taken))
+        yield new_saved(rig, Pose(weights), taken[-1], title, (), None)
+
+
 def read_saved(path: Path, rig: Rig) -> SavedPose:
     """Read one pose of a library onto a rig.
 

@@ -42,7 +42,7 @@ def read_pose_table(path: Path, rig: Rig) -> tuple[Floats, list[str], list[int]]
     for name in names:
         if name and names.count(name) > 1:
             raise FacepinError(f"{path.name}:{lines[0][0]}: {name!a} is there twice, allowed: once")
-    places = match_shapes(names, rig.shape_names)
+    places = match_shapes(rig.names_here(names), rig.shape_names)
     used = [(column, place) for column, place in enumerate(places) if place is not None]
     if not used:
         raise FacepinError(

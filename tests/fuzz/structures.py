@@ -63,7 +63,7 @@ def _changed(root: Any, rng: np.random.Generator) -> Any:
 
 def _places(root: Any) -> Any:
     """Yield every holder of a value and its key, not deeper than a stack bears."""
-    left = [root]
+    left = [root] if isinstance(root, dict | list) else []
     while left:
         holder = left.pop()
         keys = holder.keys() if isinstance(holder, dict) else range(len(holder) if len(holder) < 999 else 0)

@@ -148,6 +148,16 @@ def _broken(weights: object) -> SolverKind:
     return SolverKind("broken", "Broken", "", kind.settings, prepare)
 
 
+@pytest.mark.parametrize("key", SOLVERS)
+@pytest.mark.parametrize("far", [np.nan, np.inf, -np.inf, 1e200, 1e9])
+def test_a_goal_that_is_nowhere_is_refused_by_every_solver(key: str, far: float) -> None:
+    session = Session(RIG, [choose(key)])
+    before = session.pose.weights
+    session.apply(Edit("Drag pin", False, (Pin(30, (far, 0.0, 0.0)),), solve=True))
+    np.testing.assert_array_equal(session.pose.weights, before)
+    assert "the pin on vertex 30 should be at" in session.message
+
+
 @pytest.mark.parametrize("weights", [np.nan, np.inf, 2e6, np.linalg.LinAlgError("singular")])
 def test_a_solver_that_fails_keeps_the_last_good_pose_and_says_so(weights: object) -> None:
     choice = choose("transpose")

@@ -192,6 +192,41 @@ def test_every_answer_within_limits_obeys_the_tie_beside_locks(key: str, locks: 
             assert ((weights >= -1e-12) & (weights <= 1 + 1e-12)).all()
 
 
+@pytest.mark.parametrize("key", ["transpose", "sparse", "bounded", "hand"])
+@pytest.mark.parametrize("heights", [1.0, 21.0, 1e3, 1e5])
+def test_the_tie_holds_however_far_the_goals(key: str, heights: float) -> None:
+    solver = PinSolver(RIG, choose(key, keep_limits=True), TIED)
+    closed = RIG.evaluate(np.array([0, 1.0, 0, 0, 0])) - RIG.neutral
+    share = heights * RIG.height / np.abs(closed).max()
+    for sign in (1, -1):
+        goals = RIG.neutral + sign * share * closed
+        pins = tuple(replace(pin, goal=tuple(goals[pin.vertex].astype(float).tolist())) for pin in PINS)
+        for start in (np.zeros(5), np.array([0.2, 0.3, 0.5, 0.1, 0.0])):
+            weights = solver.solve(pins, start).weights
+            assert weights[1] <= weights[2] + 1e-6
+            assert ((weights >= -1e-9) & (weights <= 1 + 1e-9)).all()
+
+
+@pytest.mark.parametrize("key", ["transpose", "sparse", "bounded", "hand"])
+def test_what_is_tied_to_a_muted_shape_stays_shut(key: str) -> None:
+    """The jaw is open in numbers only, so the lips have nowhere to go."""
+    control = replace(TIED, muted=flags(2))
+    start = np.array([0, 0, 0.8, 0, 0])
+    assert control.limits_at(start)[1].tolist() == [0, 0]
+    closed = RIG.evaluate(np.array([0, 0.8, 0, 0, 0])).astype(float)
+    pins = tuple(replace(pin, goal=tuple(closed[pin.vertex].tolist())) for pin in PINS)
+    weights = PinSolver(RIG, choose(key, keep_limits=True), control).solve(pins, start).weights
+    assert weights[1] <= 1e-6
+    assert weights[2] == 0.8
+
+
+def test_a_muted_shape_holds_no_other_open() -> None:
+    control = replace(TIED, muted=flags(1))
+    weights = np.array([0, 0.6, 0.7, 0, 0])
+    np.testing.assert_array_equal(control.limits_beside_locks(weights), RIG.limits)
+    np.testing.assert_array_equal(control.limits_at(weights), RIG.limits)
+
+
 @pytest.mark.parametrize("key", ["pseudo_inverse", "sparse", "bounded"])
 def test_the_formulas_know_of_no_tie_unless_limits_are_asked_for(key: str) -> None:
     closed = RIG.evaluate(np.array([0, 0.8, 0, 0, 0])).astype(float)

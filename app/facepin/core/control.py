@@ -91,24 +91,28 @@ class ShapeControl:
     def limits_at(self, weights: Floats) -> Floats:
         """Return the limits (k, 2) that hold in a pose (k,): a tied shape goes as far as the other one does.
 
-        The array `limits` itself without ties.
+        What counts is what is shown: a silent shape goes nowhere, and being tied does not matter to it.  The
+        array `limits` itself without ties.
         """
         if not self.ties:
             return self.limits
-        limits = self.limits.copy()
+        limits, heard = self.limits.copy(), self.heard(weights)
         for tied, other in self.ties:
-            limits[tied, 1] = min(limits[tied, 1], max(float(weights[other]), limits[tied, 0]))
+            if not self.silent[tied]:
+                limits[tied, 1] = min(limits[tied, 1], max(float(heard[other]), limits[tied, 0]))
         return limits
 
     def limits_beside_locks(self, weights: Floats) -> Floats:
         """Return the limits (k, 2) of what is free beside tied shapes that are held at their weights (k,).
 
-        A tie between two free shapes does not show in them.
+        A tie between two free shapes does not show in them.  Silent ones count as `limits_at` has it.
         """
-        limits = self.limits.copy()
+        limits, heard = self.limits.copy(), self.heard(weights)
         for tied, other in self.ties:
+            if self.silent[tied]:
+                continue
             if self.held[other]:
-                limits[tied, 1] = min(limits[tied, 1], max(float(weights[other]), limits[tied, 0]))
+                limits[tied, 1] = min(limits[tied, 1], max(float(heard[other]), limits[tied, 0]))
             elif self.held[tied]:
                 limits[other, 0] = max(limits[other, 0], min(float(weights[tied]), limits[other, 1]))
         return limits

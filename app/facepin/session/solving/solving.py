@@ -19,6 +19,8 @@ from facepin.solvers.interface import Solution, Solve, SolverKind
 
 LARGEST_AMOUNT = LARGEST_WEIGHT**2
 """Of a shape or a combination in a solver's answer: more is beyond what can be drawn."""
+FARTHEST = 1e6
+"""Face heights that a goal may be away from its vertex: no arithmetic is led to where numbers end."""
 SECOND_LOOKS = 2
 """Times that a solver which starts afresh is asked again, for the face as it is at its last answer."""
 SETTLED = 1e-4
@@ -90,9 +92,11 @@ class PinSolver:
         Raises
         ------
         FacepinError
-            When the solver fails or gives a weight that is not finite.
+            For a goal that is not finite or absurdly far away, and when the solver fails or gives a weight
+            that is not finite.
         """
         kind = self.choice.kind
+        _check_goals(self._rig, pins)
         displacement = pin_displacement(self._rig, pins)
         try:
             prepared = self._prepare(pins, start, grabbed)
@@ -166,6 +170,18 @@ class _Prepared:
             # Products of weights grow faster than weights: what can't be drawn must not become the pose.
             raise FacepinError(f"{self.title} moves shapes {largest:.0e} times as far as they go")
         return weights, solution
+
+
+def _check_goals(rig: Rig, pins: tuple[Pin, ...]) -> None:
+    """Refuse goals that no face reaches: some solvers would search for ever."""
+    for pin in pins:
+        away = float(np.abs(np.subtract(pin.goal, rig.neutral[pin.vertex])).max())
+        if not away <= FARTHEST * rig.height:
+            where = ", ".join(f"{part:g}" for part in pin.goal)
+            raise FacepinError(
+                f"the pin on vertex {pin.vertex} should be at ({where}), "
+                f"allowed are finite goals within {FARTHEST:.0e} face heights"
+            )
 
 
 def _mean_length(pins: tuple[Pin, ...], missing: Floats) -> float:

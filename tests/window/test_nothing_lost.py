@@ -28,7 +28,7 @@ from facepin.resources import builtin_faces
 from facepin.session.edit import Edit
 from facepin.session.solving.solving import choose
 from support.driver import App, running
-from support.small_rigs import sheet
+from support.small_rigs import write_sheet
 
 KILLS, STARTS = 20, 2
 """How often work is killed, and after how many of them the whole program is started again."""
@@ -37,13 +37,7 @@ KILLS, STARTS = 20, 2
 @pytest.fixture(scope="module")
 def rig(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The sheet as a file."""
-    small = sheet()
-    path = tmp_path_factory.mktemp("faces") / "sheet.npz"
-    deltas = small.deltas.toarray().T.reshape(small.shape_count, -1, 3)
-    np.savez(
-        path, neutral=small.neutral, faces=small.triangles, deltas=deltas, names=np.array(small.shape_names)
-    )
-    return path
+    return write_sheet(tmp_path_factory.mktemp("faces") / "sheet.npz")
 
 
 @pytest.fixture(scope="module")

@@ -152,7 +152,7 @@ def _loop(
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
     router = Router()
-    view.recovery.shown = bool(desk.keeper.offered)
+    view.recovery.shown = bool(desk.keeper.left)
     for problem in (*desk.keeper.remarks, layout_file.complaint, complaint):
         if problem:
             desk.say(problem, error=True)

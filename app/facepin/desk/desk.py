@@ -317,7 +317,7 @@ class Desk:
             self.opened = file or opening.source.path
         if begun.complaint:
             self.say(f"{file.name}: {begun.complaint}" if file else begun.complaint, error=True)
-        elif left is not None and left.scene.is_touched and before is not None:
+        elif left is not None and before is not None:
             self.say(f"The unsaved work on {before.rig.name} is kept: see File, {Command.UNSAVED_WORK.title}")
         elif leftover is not None:
             self.say(f"The unsaved work on {rig.name} is back, as it was at {leftover.time:%H:%M}")

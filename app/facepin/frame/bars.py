@@ -38,7 +38,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
-    left = desk.keeper.offered
+    left = desk.keeper.left
     spacing = imgui.get_style().item_spacing
     asked: list[Request | None] = []
     with part(desk, "The menus"):

@@ -1,7 +1,9 @@
 """One frame after another: input, edits, panels, picture."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
@@ -21,10 +23,12 @@ from facepin.frame.docks import panels
 from facepin.frame.layout_file import LayoutFile
 from facepin.frame.over_picture import over_picture
 from facepin.frame.painting import Painting
+from facepin.frame.part import part
 from facepin.frame.routing import Router
 from facepin.panels import layout
 from facepin.panels.commands import Command
 from facepin.panels.file_dialog import has_native_dialogs
+from facepin.panels.requests import Request
 from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.panels.weights.listing import ARRANGEMENTS
@@ -65,6 +69,8 @@ class Start:
     """For a folder of OBJ files: the one with the neutral."""
     solve_first: bool = False
     """Whether the weights follow the pins of the first pose: a pins file says only where they go."""
+    caught: bool = True
+    """Whether a bug in one part is told there and everything else goes on.  Tests want to see bugs."""
 
 
 @dataclass(frozen=True)
@@ -110,19 +116,24 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
         drafts=start.settings_folder / "autosave" if start.settings_folder else None,
         settings=start.settings_folder,
         chart_writer=start.chart_writer,
+        caught=start.caught,
     )
     _set_up_imgui()
     layout_file = LayoutFile(start.settings_folder / "layout.ini" if start.settings_folder else None)
-    try:
-        yield from _loop(window, start, desk, layout_file, painting)
-    finally:
-        layout_file.save()
-        desk.keep()
-        lost = desk.keeper.close()
-        desk.release()
-        painting.release()
-        if lost:
-            raise FacepinError(lost)
+    with ExitStack() as at_the_end:  # last in, first out; whatever fails there, the rest is done
+        for each in (painting.release, desk.release, partial(_leave, desk), desk.keep, layout_file.save):
+            at_the_end.callback(each)
+        try:
+            yield from _loop(window, start, desk, layout_file, painting)
+        except Exception as error:
+            desk.faults.write("The main loop", error)
+            raise
+
+
+def _leave(desk: Desk) -> None:
+    """Leave what is unsaved to the next window."""
+    if lost := desk.keeper.close():
+        raise FacepinError(lost)
 
 
 def _loop(
@@ -141,11 +152,11 @@ def _loop(
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
     router = Router()
-    view.recovery.shown = bool(desk.keeper.offered)
+    view.recovery.shown = bool(desk.keeper.left)
     for problem in (*desk.keeper.remarks, layout_file.complaint, complaint):
         if problem:
             desk.say(problem, error=True)
-    with desk.reporting():
+    with desk.reporting("Opening"):
         rig = start.rig or resource("assets", BUILTIN)
         desk.opener.open(rig, start.first_pose, solve=start.solve_first, neutral=start.neutral)
     viewport = Viewport(0, 0, *window.size)
@@ -194,12 +205,19 @@ def _loop(
         if view.theme is not theme:
             theme = view.theme
             apply_theme(theme, scale)
-        desk.poll()
-        desk.sync()
+        with desk.reporting("What was finished meanwhile"):
+            desk.poll()
+            desk.sync()
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.
-        asked = router.take(events, desk, viewports, window.scale)
+        asked: list[Request] = []
+        with part(desk, "The hand in the picture") as within:
+            asked += router.take(events, desk, viewports, window.scale)
+        if within.failed:
+            with desk.reporting("The hand in the picture"):
+                router = Router()
+                desk.drop_gesture()
         asked += bars(desk, [Path(path) for path in preferences.recent], seconds, scale)
         reset_layout = reset_layout or Command.RESET_LAYOUT in asked
         viewport = layout.dock_space(scale, window.pixel_ratio, reset=reset_layout)
@@ -213,13 +231,19 @@ def _loop(
             desk.viewport, desk.pixel_scale = viewports[0], window.scale
         asked += panels(desk, scale)
         asked += cards(desk, viewport, window.pixel_ratio, scale)
+        shown = False
         if stage is not None:
-            moved = stage.update()
-            asked += over_picture(desk, viewport, viewports, window.pixel_ratio, scale)
-            moving = moved or router.navigator.holding or desk.tool.holding
-            painting.draw(desk, stage, viewports, window.size, theme.panel, moving=moving)
-            window.show(painting.flat())
-        else:
+            moved = True
+            with part(desk, "The face"):
+                moved = stage.update()
+            with part(desk, "What is over the picture"):
+                asked += over_picture(desk, viewport, viewports, window.pixel_ratio, scale)
+            with part(desk, "The picture"):
+                moving = moved or router.navigator.holding or desk.tool.holding
+                painting.draw(desk, stage, viewports, window.size, theme.panel, moving=moving)
+                window.show(painting.flat())
+                shown = True
+        if not shown:
             window.clear(theme.panel)
         window.end_frame()
         seconds = perf_counter() - began
@@ -227,10 +251,11 @@ def _loop(
         # What was asked for is there in the next frame.
         for request in asked:
             carry_out(request, desk)
-        if asked:
-            desk.sync()
-            settling = SETTLE
-        desk.keep()
+        with desk.reporting("Keeping the work"):
+            if asked:
+                desk.sync()
+                settling = SETTLE
+            desk.keep()
         if desk.title != title:
             title = desk.title
             window.set_title(title)

@@ -112,6 +112,7 @@ def running(
     solve_first: bool = False,
     wait: bool = True,
     windowless: bool = True,
+    caught: bool = False,
 ) -> Iterator[App]:
     """Run the application with a rig open, on the null platform unless told otherwise."""
     with Window("test", size, windowless=windowless, scale=scale) as window:
@@ -123,6 +124,7 @@ def running(
             pictures,
             native_dialogs=False,
             solve_first=solve_first,
+            caught=caught,
         )
         loop = frames(window, start)
         app = App(window, loop, next(loop))

@@ -1,5 +1,7 @@
 """Rigs small enough to check by hand."""
 
+from pathlib import Path
+
 import numpy as np
 
 from facepin.core.rig import Rig
@@ -20,3 +22,13 @@ def sheet(columns: int = 9, rows: int = 9, shapes: int = 4, seed: int = 1) -> Ri
         near[near < 0.02] = 0
         deltas.append((f"shape{j}", near[:, None] * random.uniform(-0.5, 0.5, 3)))
     return build_rig("sheet", neutral, quads.ravel(), np.full(len(quads), 4), deltas)
+
+
+def write_sheet(path: Path) -> Path:
+    """Write the sheet as a file."""
+    small = sheet()
+    deltas = small.deltas.toarray().T.reshape(small.shape_count, -1, 3)
+    np.savez(
+        path, neutral=small.neutral, faces=small.triangles, deltas=deltas, names=np.array(small.shape_names)
+    )
+    return path

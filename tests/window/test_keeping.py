@@ -16,8 +16,8 @@ from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera
 from facepin.desk.keeping import Keeper
 from facepin.desk.scenes import RigSource, Snapshot, resume
+from facepin.files.safely import file_lock
 from facepin.files.safely.file_lock import take_lock
-from facepin.files.work import drafts
 from facepin.files.work.drafts import Draft, leftovers
 from facepin.session.autosave import Autosave
 from facepin.session.edit import Edit
@@ -115,8 +115,11 @@ def test_what_a_window_left_is_found_once_and_goes_on_in_its_own_draft(tmp_path:
     first.work(0.5)
     assert not first.keeper.close()
     second, third = Window(tmp_path), Window(tmp_path)
-    (leftover,) = second.keeper.left
-    assert not third.keeper.left  # claimed
+    (leftover,), (other,) = second.keeper.left, third.keeper.left
+    leftover = second.keeper.take_up(leftover)
+    for late in (third.keeper.take_up, third.keeper.discard):
+        with pytest.raises(FacepinError, match="another window"):
+            late(other)
     found = resume(leftover.scene, RIG)
     assert found.work.panes[0].pose.weights.tolist() == [0.5] * 4
     second.session = Session.resumed(RIG, found.work)
@@ -153,7 +156,8 @@ def test_another_rig_in_the_same_window_leaves_the_work_behind(tmp_path: Path, w
     window.work(0.25)
     wait_for(lambda: sorted(kept_in(tmp_path)) == [0.25, 0.5])
     assert [leftover.scene.panes[0].weights["shape0"] for leftover in window.keeper.left] == [0.5]
-    assert not Window(tmp_path).keeper.left
+    (found,) = Window(tmp_path).keeper.left
+    assert found.scene.panes[0].weights["shape0"] == 0.5, "what is open is not offered to others"
 
 
 def test_two_windows_at_once_keep_apart(tmp_path: Path) -> None:
@@ -240,19 +244,80 @@ def test_a_draft_whose_lock_is_gone_is_found_all_the_same(tmp_path: Path) -> Non
     assert len(Window(tmp_path).keeper.left) == 1
 
 
-def test_the_oldest_drafts_go_when_there_are_too_many(
+def test_however_much_is_left_all_of_it_is_offered_and_none_of_it_held_open(tmp_path: Path) -> None:
+    for number in range(46):
+        window = Window(tmp_path)
+        window.work(1 + number)
+        window.keeper.close()
+    before = open_files()
+    late = Window(tmp_path)
+    assert sorted(leftover.scene.panes[0].weights["shape0"] for leftover in late.keeper.left) == [
+        1.0 + number for number in range(46)
+    ]
+    assert open_files() <= before
+    assert len(drafts_in(tmp_path)) == 46
+
+
+def open_files() -> int:
+    """How many files this process has open; 0 where the system does not say."""
+    folder = Path("/proc/self/fd")
+    return len(list(folder.iterdir())) if folder.is_dir() else 0
+
+
+def test_a_face_at_rest_makes_no_draft_and_is_not_offered(tmp_path: Path, window: Window) -> None:
+    window.session.choose_solver(0, choose("sparse"))
+    window.keep()
+    assert window.keeper.let_go(window.session, window.snapshot) is None
+    assert not window.keeper.left and not drafts_in(tmp_path)
+    window.keeper.begin(window.session, None)
+    window.work(0.5)
+    wait_for(lambda: kept_in(tmp_path) == [0.5])
+    window.work(0.0)
+    wait_for(lambda: not drafts_in(tmp_path))
+
+
+def test_what_another_window_took_up_and_finished_is_offered_no_more(tmp_path: Path) -> None:
+    first = Window(tmp_path)
+    first.work(0.5)
+    first.keeper.close()
+    second, third = Window(tmp_path), Window(tmp_path)
+    second.keeper.discard(second.keeper.left[0])
+    with pytest.raises(FacepinError, match="already"):
+        third.keeper.take_up(third.keeper.left[0])
+    assert not third.keeper.left
+    third.keeper.close()
+    second.keeper.close()
+    assert not list(tmp_path.iterdir())
+
+
+def test_work_that_another_window_went_on_with_is_taken_up_as_that_left_it(tmp_path: Path) -> None:
+    first = Window(tmp_path)
+    first.work(0.5)
+    first.keeper.close()
+    early, late = Window(tmp_path), Window(tmp_path)
+    early.keeper.begin(early.session, None, early.keeper.take_up(early.keeper.left[0]))
+    early.work(0.75)
+    early.keeper.close()
+    assert late.keeper.take_up(late.keeper.left[0]).scene.panes[0].weights["shape0"] == 0.75
+    late.keeper.close()
+
+
+def test_a_lock_that_is_taken_away_in_the_moment_it_is_asked_for_is_taken_anew(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    windows = [Window(tmp_path) for _ in range(4)]
-    for age, window in enumerate(windows):
-        window.work(0.5 + age)
-        window.keeper.close()
-        assert window.keeper._draft is not None
-        os.utime(window.keeper._draft.path, (1e9 - age, 1e9 - age))
-    monkeypatch.setattr(drafts, "MOST_KEPT", 2)
-    found, _ = leftovers(tmp_path)
-    assert [leftover.scene.panes[0].weights["shape0"] for leftover in found] == [0.5, 1.5]
-    assert len(drafts_in(tmp_path)) == 2
+    path = tmp_path / "a.lock"
+    lock, held = file_lock._lock, take_lock(path)
+    assert held is not None
+
+    def after_release(file: int) -> None:
+        monkeypatch.setattr(file_lock, "_lock", lock)
+        held.release()
+        lock(file)
+
+    monkeypatch.setattr(file_lock, "_lock", after_release)
+    mine = take_lock(path)
+    assert mine is not None and path.exists()
+    assert take_lock(path) is None
 
 
 def full(*_: object) -> None:

@@ -19,6 +19,7 @@ from facepin.actions import (
     viewing,
 )
 from facepin.desk.desk import Desk
+from facepin.panels.commands import Command
 from facepin.panels.requests import Request
 
 TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
@@ -38,7 +39,7 @@ TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
 
 def carry_out(request: Request, desk: Desk) -> None:
     """Do what was asked; what can't be done is said in the status line."""
-    with desk.reporting():
+    with desk.reporting(request.title if isinstance(request, Command) else type(request).__name__):
         # What an earlier request of the same frame changed.
         desk.sync()
         if desk.stage is not None:

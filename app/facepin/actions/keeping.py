@@ -35,9 +35,9 @@ def act(request: Request, desk: Desk) -> bool:
             desk.ask("save file", request, suggested, SCENES, lambda path: _save_as(desk, path))
         case Command.UNSAVED_WORK:
             desk.view.recovery.shown = not desk.view.recovery.shown
-            desk.say("" if desk.keeper.offered else "There is no unsaved work but what is open")
+            desk.say("" if desk.keeper.left else "There is no unsaved work but what is open")
         case RestoreWork(draft):
-            leftover = _leftover(desk, draft)
+            leftover = desk.keeper.take_up(_leftover(desk, draft))
             desk.opener.open_scene(leftover.scene, leftover.scene.of, leftover)
         case DiscardWork(draft):
             leftover = _leftover(desk, draft)

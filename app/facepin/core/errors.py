@@ -14,3 +14,7 @@ class FacepinError(Exception):
         """Keep `line`, made one printable line whatever foreign names and messages it quotes."""
         shown = "".join(character if character.isprintable() else " " for character in line[: LONGEST + 1])
         super().__init__(shown if len(shown) <= LONGEST else shown[: LONGEST - 1] + "…")
+
+
+class Fault(FacepinError):
+    """A bug, caught where it could do no harm to what else goes on; its cause is what was raised."""

@@ -9,6 +9,7 @@ import numpy as np
 from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera, Viewport, frame_points
 from facepin.core.rig import Rig
+from facepin.desk.faults import Faults, Within
 from facepin.desk.keeping import Keeper
 from facepin.desk.library import Library, library_of
 from facepin.desk.opening import Begun, Opener, Opening, SceneOpening
@@ -48,6 +49,7 @@ class Desk:
         drafts: Path | None,
         settings: Path | None = None,
         chart_writer: ChartWriter | None,
+        caught: bool = False,
     ) -> None:
         """Start with nothing open.
 
@@ -69,8 +71,13 @@ class Desk:
             Folder for poses of rigs that they can't be kept beside; None for nowhere.
         chart_writer : callable
             Writes the charts of a session into a folder.
+        caught : bool
+            Whether bugs are told and written down instead of raised.
         """
         self.view = view
+        self.faults = Faults(
+            self.say, lambda: self.graphics, settings / "reports" if settings else None, caught=caught
+        )
         self.tool = DragTool()
         self.cameras: list[Camera] = [Camera()]
         """One per pane."""
@@ -101,6 +108,8 @@ class Desk:
         """How what is open was opened."""
         self._numbers = [0]
         """Of the panes that `cameras` and `view.panes` are for."""
+        self._given_up: tuple[object, ...] = ()
+        """What failed when it was to be refined."""
         self._looks: dict[int, tuple[Camera, PaneView]] = {}
         """How panes were looked at, by their numbers."""
 
@@ -161,14 +170,14 @@ class Desk:
 
     def poll(self) -> None:
         """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""
-        with self.reporting():
+        with self.reporting("Opening"):
             if (found := self.opener.take()) is not None:
                 self._show(*found)
         if (question := self._questions.take()) is not None and question.dialog.path is not None:
             self._answer(question, question.dialog.path)
         if (job := self.job) is not None:
             self.job = None  # unless it goes on
-            with self.reporting():
+            with self.reporting(job.title):
                 came_of_it = job.advance()
                 if came_of_it is None:
                     self.job = job
@@ -181,7 +190,7 @@ class Desk:
             self.say("Another face was opened meanwhile, so nothing was saved: save it anew", error=True)
             return
         self.say("")
-        with self.reporting():
+        with self.reporting(question.dialog.title):
             question.then(path)
         # Of a scene whose rig is missing a card tells, which asks for the rig.
         if self.is_error and self.opener.lost is None:
@@ -202,14 +211,21 @@ class Desk:
     @property
     def refined(self) -> bool:
         """Whether `refine` has nothing to do."""
-        return all(each is None or each.refined for each in (self.stage, self.library, self.portraits))
+        return all(each.refined for each in self._unrefined())
 
     def refine(self) -> bool:
         """Do some milliseconds of what can wait for an idle moment; return whether anything looks new."""
-        for each in (self.stage, self.library, self.portraits):
-            if each is not None and not each.refined:
-                return each.refine()
+        for each in self._unrefined():
+            if not each.refined:
+                with self.reporting("What is drawn in idle moments"):
+                    return each.refine()
+                self._given_up = (*self._given_up, each)  # it would fail in every idle moment
+                return True
         return False
+
+    def _unrefined(self) -> list[Stage | Library | Portraits]:
+        parts = (self.stage, self.library, self.portraits)
+        return [each for each in parts if each is not None and not any(each is one for one in self._given_up)]
 
     def apply(self, edit: Edit) -> None:
         """Apply an edit to the session, and pass on what it has to say."""
@@ -223,6 +239,12 @@ class Desk:
             by_hand = edit.weights is not None and edit.pins is None
             let_go = by_hand and solved is not None and solved.pin_error > FAR_OFF * self.session.rig.height
             self.say("The goals of the pins are on the face again; undo brings them back" if let_go else "")
+
+    def drop_gesture(self) -> None:
+        """Let go of whatever is in the hand, as if it had not been taken."""
+        self.tool = DragTool()
+        if self.session is not None:
+            self.session.cancel()
 
     def snapshot(self) -> Snapshot:
         """Return all that a scene is made of, as it is at the last undo step."""
@@ -258,6 +280,7 @@ class Desk:
         if self.job is not None:
             self.job.cancel()
             self.job = None
+        self._given_up = ()
         if self.portraits is not None:
             self.portraits.release()
         if self.stage is not None:
@@ -294,7 +317,7 @@ class Desk:
             self.opened = file or opening.source.path
         if begun.complaint:
             self.say(f"{file.name}: {begun.complaint}" if file else begun.complaint, error=True)
-        elif left is not None and left.scene.is_touched and before is not None:
+        elif left is not None and before is not None:
             self.say(f"The unsaved work on {before.rig.name} is kept: see File, {Command.UNSAVED_WORK.title}")
         elif leftover is not None:
             self.say(f"The unsaved work on {rig.name} is back, as it was at {leftover.time:%H:%M}")
@@ -356,7 +379,7 @@ class Desk:
         if self.session is not None:
             self.tool.forget_gone(self.session.pose.pins)
         if self.library is not None:
-            with self.reporting():
+            with self.reporting("The library of poses"):
                 self.library.follow()
         numbers = [pane.number for pane in self.session.panes] if self.session else [0]
         if numbers == self._numbers:
@@ -370,23 +393,6 @@ class Desk:
         if self.stage is not None:
             self.stage.update()  # panels may ask where a new pane's vertices are before it is drawn
 
-    def reporting(self) -> "_Reporting":
-        """Show what goes wrong inside a `with` block in the status line; bugs pass through."""
-        return _Reporting(self)
-
-
-class _Reporting:
-    """See `Desk.reporting`."""
-
-    def __init__(self, desk: Desk) -> None:
-        self._desk = desk
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        # moderngl.Error: a graphics card without memory must not take the pose with it.
-        if isinstance(error, FacepinError | OSError | moderngl.Error):
-            self._desk.say(str(error), error=True)
-            return True
-        return False
+    def reporting(self, where: str) -> Within:
+        """Show what goes wrong inside a `with` block in the status line; `where` says what it is about."""
+        return self.faults.within(where)

@@ -16,7 +16,7 @@ class Keeper:
     """Keeps the work of one window.
 
     After each undo step that leaves something unsaved, a draft is written in the background; when everything
-    is saved, the draft is taken away.  A draft that is there when the window ends, however it ends, is
+    is saved, or the face is at rest with nothing on it, the draft is taken away.  A draft that is there when the window ends, however it ends, is
     offered by the next one.
     """
 
@@ -43,11 +43,6 @@ class Keeper:
         if folder is not None:
             self._draft = Draft(folder)
             self.left, self.remarks = leftovers(folder)
-
-    @property
-    def offered(self) -> list[Leftover]:
-        """What of `left` is worth taking up; a face at rest is only kept."""
-        return [leftover for leftover in self.left if leftover.scene.is_touched]
 
     @property
     def complaint(self) -> str:
@@ -81,7 +76,7 @@ class Keeper:
         self.file = file
         self._saved = self._seen = session.committed
         if leftover is not None:
-            self.left = [other for other in self.left if other is not leftover]
+            self._forget(leftover)
             self._draft = leftover.draft
             self._saved = None
         elif not saved:
@@ -125,20 +120,46 @@ class Keeper:
         if self.is_saved(session):
             draft.release()
             return None
+        draft.release()
         leftover = Leftover.now(draft, scene_of(snapshot(), draft=True))
+        if not leftover.scene.is_touched:
+            return None
         self.left = [leftover, *self.left]
         return leftover
+
+    def take_up(self, leftover: Leftover) -> Leftover:
+        """Claim unsaved work for this window; return it as it is now.
+
+        Raises
+        ------
+        FacepinError
+            When another window has it, or it is gone.
+        """
+        try:
+            mine = leftover.claimed()
+        except FacepinError:
+            if not leftover.draft.path.exists():
+                self._forget(leftover)
+            raise
+        self.left = [mine if other is leftover else other for other in self.left]
+        return mine
 
     def discard(self, leftover: Leftover) -> None:
         """Throw unsaved work away.
 
         Raises
         ------
+        FacepinError
+            When another window has taken it up, or it is gone.
         OSError
             When its file can't be removed.
         """
-        leftover.draft.remove()
-        leftover.draft.release()
+        mine = self.take_up(leftover)
+        mine.draft.remove()
+        mine.draft.release()
+        self._forget(mine)
+
+    def _forget(self, leftover: Leftover) -> None:
         self.left = [other for other in self.left if other is not leftover]
 
     def may_close(self, session: Session | None, snapshot: Callable[[], Snapshot]) -> str:
@@ -166,7 +187,8 @@ class Keeper:
 def _keep(job: tuple[Draft, Snapshot | None]) -> None:
     """Write a draft, or take it away when there is nothing unsaved; runs beside the window."""
     draft, snapshot = job
-    if snapshot is None:
+    scene = None if snapshot is None else scene_of(snapshot, draft=True)
+    if scene is None or not scene.is_touched:
         draft.remove()
     else:
-        draft.write(scene_bytes(scene_of(snapshot, draft=True), None))
+        draft.write(scene_bytes(scene, None))

@@ -11,6 +11,7 @@ from facepin.core.shapes.measures import active
 from facepin.core.shapes.places import titles
 from facepin.desk.desk import Desk
 from facepin.files.work.drafts import Leftover
+from facepin.frame.part import part
 from facepin.panels.help.about import about_window
 from facepin.panels.help.keyboard import keyboard_map
 from facepin.panels.help.palette import palette
@@ -37,45 +38,53 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         imgui units per pixel of a 1x screen.
     """
     session, view = desk.session, desk.view
-    left = desk.keeper.offered
+    left = desk.keeper.left
     spacing = imgui.get_style().item_spacing
-    imgui.push_style_var(
-        imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, 2 * spacing.y)
-    )  # easier to hit
-    asked: list[Request | None] = [menu_bar(view, recent, session, has_leftovers=bool(left))]
-    imgui.pop_style_var()
-    if left and view.recovery.shown:
-        asked.append(recovery_strip([_work_row(leftover) for leftover in left], view.recovery, view.theme))
+    asked: list[Request | None] = []
+    with part(desk, "The menus"):
+        easier_to_hit = imgui.ImVec2(spacing.x, 2 * spacing.y)
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, easier_to_hit)
+        asked.append(menu_bar(view, recent, session, has_leftovers=bool(left)))
+        imgui.pop_style_var()
+    with part(desk, "The list of unsaved work"):
+        if left and view.recovery.shown:
+            rows = [_work_row(leftover) for leftover in left]
+            asked.append(recovery_strip(rows, view.recovery, view.theme))
     timing = f"frame {seconds * 1e3:.1f} ms"
     if session is not None and desk.stage is not None and session.pane.solved is not None:
         solve = sum(pane.solved.seconds for pane in session.panes if pane.solved is not None)
         timing = f"solve {solve * 1e3:.2f} ms   deform {desk.stage.seconds * 1e3:.2f} ms   {timing}"
     rig = session.rig if session else None
-    status_line(
-        rig,
-        timing,
-        desk.message,
-        view.theme,
-        is_error=desk.is_error,
-        warnings=rig.warnings if rig else (),
-        unkept=desk.keeper.complaint,
-    )
+    with part(desk, "The status line"):
+        status_line(
+            rig,
+            timing,
+            desk.message,
+            view.theme,
+            is_error=desk.is_error,
+            warnings=rig.warnings if rig else (),
+            unkept=desk.keeper.complaint,
+        )
     if desk.loading is not None and desk.loading.is_long:
         title = f"Opening {desk.loading.path.name}"
         if progress_card(title, desk.loading.fraction, desk.loading.line):
             asked.append(CancelLoading())
     elif desk.job is not None and desk.job.is_long and progress_card(desk.job.title, desk.job.fraction, ""):
         asked.append(CancelJob())
-    if desk.dialog is not None:
-        desk.dialog.draw()
-    if session is not None:
-        asked.append(_pin_popup(desk, session.pose))
-    poses = desk.library.poses if desk.library is not None else ()
-    asked.append(palette(view, session, recent, poses, scale))
-    if view.keyboard:
-        view.keyboard = keyboard_map(view.habit, view.theme, scale)
-    if view.about:
-        view.about = about_window(desk.graphics, scale)
+    with part(desk, "The question for a file"):
+        if desk.dialog is not None:
+            desk.dialog.draw()
+    with part(desk, "The menu of a pin"):
+        if session is not None:
+            asked.append(_pin_popup(desk, session.pose))
+    with part(desk, "The command palette"):
+        poses = desk.library.poses if desk.library is not None else ()
+        asked.append(palette(view, session, recent, poses, scale))
+    with part(desk, "Help"):
+        if view.keyboard:
+            view.keyboard = keyboard_map(view.habit, view.theme, scale)
+        if view.about:
+            view.about = about_window(desk.graphics, scale)
     return [request for request in asked if request is not None]
 
 

@@ -3,6 +3,7 @@
 from facepin.core.look.camera import Viewport
 from facepin.core.shapes.measures import moves, percent
 from facepin.desk.desk import Desk
+from facepin.frame.part import part
 from facepin.panels import layout
 from facepin.panels.history import TITLE as HISTORY
 from facepin.panels.history import history_window
@@ -17,15 +18,18 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
     width = viewport.width / pixel_ratio
     session, view = desk.session, desk.view
     asked: list[Request | None] = []
-    if view.history and session is not None:
-        steps, step = session.steps, session.step
-        view.beside.in_front_of(layout.WEIGHTS, HISTORY)
-        view.history, wanted = history_window(session.rig, steps, step, scale, view.theme)
-        asked.append(wanted)
-    if view.tidy is not None:
-        asked.append(_tidy(desk, view.tidy, place, scale))
-    if desk.opener.lost is not None:
-        asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
+    with part(desk, "The list of steps"):
+        if view.history and session is not None:
+            steps, step = session.steps, session.step
+            view.beside.in_front_of(layout.WEIGHTS, HISTORY)
+            view.history, wanted = history_window(session.rig, steps, step, scale, view.theme)
+            asked.append(wanted)
+    with part(desk, "Tidying"):
+        if view.tidy is not None:
+            asked.append(_tidy(desk, view.tidy, place, scale))
+    with part(desk, "The scene without its rig"):
+        if desk.opener.lost is not None:
+            asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
     return [request for request in asked if request is not None]
 
 

@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 
 from facepin.core.shapes.places import titles
 from facepin.desk.desk import Desk
+from facepin.frame.part import part
 from facepin.panels import layout
 from facepin.panels.chart import SIZE as CHART_SIZE
 from facepin.panels.chart import TITLE as CHART
@@ -33,70 +34,90 @@ def panels(desk: Desk, scale: float) -> list[Request]:
         imgui units per pixel of a 1x screen.
     """
     session, theme = desk.session, desk.view.theme
-    request = wish = None
-    layout.without_background(layout.SOLVER)
-    if imgui.begin(layout.SOLVER)[0] and session is not None:
-        request = solver_panel(
-            session.rig,
-            session.control,
-            session.pane,
-            session.active,
-            desk.view.panes[session.active],
-            theme,
-        )
-        layout.fit_height(layout.WEIGHTS, scale)
-    imgui.end()
-    layout.without_background(layout.PINS)
-    layout.beside(layout.PINS, layout.SOLVER)
+    request: Request | None = None
+    wish: Edit | Request | None = None
+    with part(desk, "The panel of the solver"):
+        layout.without_background(layout.SOLVER)
+        if imgui.begin(layout.SOLVER)[0] and session is not None:
+            request = solver_panel(
+                session.rig,
+                session.control,
+                session.pane,
+                session.active,
+                desk.view.panes[session.active],
+                theme,
+            )
+            layout.fit_height(layout.WEIGHTS, scale)
+        imgui.end()
     of_pins: Request | None = None
-    if imgui.begin(layout.PINS)[0] and session is not None and desk.stage is not None:
-        pins, positions = session.pose.pins, desk.stage.positions(session.active)
-        called = titles(desk.stage.places, pins) if pins else {}
-        of_pins = pins_panel(session.rig, pins, called, positions, desk.tool.selected, desk.view.pins, theme)
-        if desk.view.pins.hovered is not None:
-            desk.tool.hovered = desk.view.pins.hovered
-        layout.fit_height(layout.WEIGHTS, scale, list_height(len(pins)))
-    imgui.end()
+    with part(desk, "The panel of pins"):
+        of_pins = _pins(desk, session, scale)
     desk.view.weights.explained = None
-    layout.without_background(layout.WEIGHTS)
-    if imgui.begin(layout.WEIGHTS)[0] and session is not None:
-        wish = weights_panel(
-            session.rig,
-            session.control,
-            session.panes,
-            session.active,
-            desk.view.weights,
-            scale,
-            theme,
-            lambda: session.mirror,
-            in_gesture=session.in_gesture,
-            reference=session.work.reference if desk.view.reference_shown else None,
-        )
-    imgui.end()
+    with part(desk, "The panel of weights"):
+        layout.without_background(layout.WEIGHTS)
+        if imgui.begin(layout.WEIGHTS)[0] and session is not None:
+            wish = weights_panel(
+                session.rig,
+                session.control,
+                session.panes,
+                session.active,
+                desk.view.weights,
+                scale,
+                theme,
+                lambda: session.mirror,
+                in_gesture=session.in_gesture,
+                reference=session.work.reference if desk.view.reference_shown else None,
+            )
+        imgui.end()
     is_first = not layout.is_known(layout.LIBRARY)
-    blend, more = _library(desk, scale)
+    blend: Edit | None = None
+    more: list[Request] = []
+    with part(desk, "The panel of poses"):
+        blend, more = _library(desk, scale)
     if is_first:  # else the tab that is made last lies on top
         imgui.set_window_focus(layout.WEIGHTS)
     for at, pane in enumerate(desk.view.panes):
         pane.shape = desk.view.weights.explained if session is not None and at == session.active else None
-    if isinstance(wish, Edit):
-        desk.apply(_linked(desk, session, wish))
-        wish = None
-    elif blend is not None:
-        desk.apply(blend)
+    with part(desk, "What a panel changed"):
+        if isinstance(wish, Edit):
+            desk.apply(_linked(desk, session, wish))
+            wish = None
+        elif blend is not None:
+            desk.apply(blend)
     chart: Request | None = None
     film: Request | None = None
     count = 1 if desk.stage is None else len(desk.stage.panes)
-    if desk.view.chart and session is not None:
-        desk.view.beside.left(CHART, CHART_SIZE[0] * scale, count, layout.WEIGHTS)
-        desk.view.chart, chart = chart_window(
-            session.rig, session.panes, session.work.reference, scale, theme
+    with part(desk, "The chart"):
+        if desk.view.chart and session is not None:
+            desk.view.beside.left(CHART, CHART_SIZE[0] * scale, count, layout.WEIGHTS)
+            desk.view.chart, chart = chart_window(
+                session.rig, session.panes, session.work.reference, scale, theme
+            )
+    with part(desk, "The filmstrip"):
+        if desk.view.filmstrip and session is not None and desk.portraits is not None:
+            stills = desk.filmstrip.stills(session)
+            desk.view.beside.below(FILMSTRIP, strip_height(scale))
+            desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
+    others = (request, of_pins, None if isinstance(wish, Edit) else wish, chart, film)
+    return [asked for asked in (*others, *more) if asked is not None]
+
+
+def _pins(desk: Desk, session: Session | None, scale: float) -> Request | None:
+    """Draw the list of pins."""
+    layout.without_background(layout.PINS)
+    layout.beside(layout.PINS, layout.SOLVER)
+    asked: Request | None = None
+    if imgui.begin(layout.PINS)[0] and session is not None and desk.stage is not None:
+        pins, positions = session.pose.pins, desk.stage.positions(session.active)
+        called = titles(desk.stage.places, pins) if pins else {}
+        asked = pins_panel(
+            session.rig, pins, called, positions, desk.tool.selected, desk.view.pins, theme=desk.view.theme
         )
-    if desk.view.filmstrip and session is not None and desk.portraits is not None:
-        stills = desk.filmstrip.stills(session)
-        desk.view.beside.below(FILMSTRIP, strip_height(scale))
-        desk.view.filmstrip, film = filmstrip_window(stills, desk.portraits.tile, scale)
-    return [asked for asked in (request, of_pins, wish, chart, film, *more) if asked is not None]
+        if desk.view.pins.hovered is not None:
+            desk.tool.hovered = desk.view.pins.hovered
+        layout.fit_height(layout.WEIGHTS, scale, list_height(len(pins)))
+    imgui.end()
+    return asked
 
 
 def _linked(desk: Desk, session: Session | None, edit: Edit) -> Edit:

@@ -5,7 +5,7 @@ from threading import Thread
 from time import monotonic
 from typing import TypeVar
 
-from facepin.core.errors import FacepinError
+from facepin.core.errors import FacepinError, Fault
 
 T = TypeVar("T")
 
@@ -70,5 +70,5 @@ def beside(work: Callable[[], T], fraction: float) -> Generator[float, None, T]:
     if errors and isinstance(errors[0], FacepinError | OSError):
         raise errors[0]
     if errors:
-        raise FacepinError(f"it could not be made ({type(errors[0]).__name__}: {errors[0]})") from errors[0]
+        raise Fault(f"it could not be made ({type(errors[0]).__name__}: {errors[0]})") from errors[0]
     return results[0]

@@ -5,7 +5,7 @@ from pathlib import Path
 from threading import Thread
 from time import monotonic
 
-from facepin.core.errors import FacepinError
+from facepin.core.errors import FacepinError, Fault
 from facepin.core.rig import Rig
 
 Open = Callable[[Path, Callable[[float, str], None]], Rig]
@@ -60,7 +60,7 @@ class Loading:
             raise self._error
         if self._error is not None:
             fault = f"{type(self._error).__name__}: {self._error}".removesuffix(": ")
-            raise FacepinError(f"{self.path.name}: opening it failed ({fault})") from self._error
+            raise Fault(f"{self.path.name}: opening it failed ({fault})") from self._error
         return self._rig
 
     def _run(self, open_path: Open) -> None:

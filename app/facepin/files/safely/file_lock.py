@@ -32,9 +32,10 @@ class FileLock:
 
     def release(self) -> None:
         """Take the lock off, and its file away."""
-        os.close(self._file)
-        with suppress(OSError):  # then an empty file stays, which whoever looks here next takes away
+        # While it is held nobody else can hold it, so what is taken away is no one else's.
+        with suppress(OSError):  # Windows takes no open file away: then an empty one stays, which is no harm
             self._path.unlink(missing_ok=True)
+        os.close(self._file)
 
 
 def take_lock(path: Path) -> FileLock | None:
@@ -54,10 +55,21 @@ def take_lock(path: Path) -> FileLock | None:
         if error.errno not in _NO_LOCKS or _is_running(os.read(file, 200)):
             os.close(file)
             return None
+    if not _is_at(path, file):  # who held it took it away in this moment
+        os.close(file)
+        return take_lock(path)
     with suppress(OSError):  # a full disk: the lock itself takes no room
         os.ftruncate(file, 0)
         os.write(file, f"{socket.gethostname()} {os.getpid()}\n".encode())
     return FileLock(path, file)
+
+
+def _is_at(path: Path, file: int) -> bool:
+    """Say whether an open file is the one that others find at a path."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(file))
+    except FileNotFoundError:
+        return False
 
 
 def _is_running(note: bytes) -> bool:

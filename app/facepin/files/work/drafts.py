@@ -12,9 +12,6 @@ from facepin.files.safely.file_lock import FileLock, take_lock
 from facepin.files.safely.reading import read_bytes
 from facepin.files.work.scene_file import SUFFIX, NewerVersion, Scene, parse_scene
 
-MOST_KEPT = 20
-"""Drafts of former windows that are kept; faces at rest go first, then the oldest."""
-
 
 class Draft:
     """The file that holds the unsaved work of one window."""
@@ -72,7 +69,7 @@ class Draft:
 
 @dataclass(frozen=True, eq=False)
 class Leftover:
-    """Unsaved work of a window that is gone, claimed by this one."""
+    """Unsaved work of a window that is gone; whoever claims its draft first may take it up."""
 
     draft: Draft
     scene: Scene
@@ -84,15 +81,38 @@ class Leftover:
         """Return a draft that was written just now."""
         return cls(draft, scene, datetime.now())
 
+    def claimed(self) -> "Leftover":
+        """Return it as it is now, for this window alone: another one may have taken it up meanwhile.
+
+        Raises
+        ------
+        FacepinError
+            When another window has it, or it is gone.
+        """
+        path = self.draft.path
+        try:
+            mine = self.draft.claim()
+        except OSError as error:
+            raise FacepinError(f"{path}: cannot be taken up: {error.strerror or error}") from error
+        if not mine:
+            raise FacepinError(f"another window is at work on {self.scene.rig.name} as it was left here")
+        try:
+            if not path.exists():
+                raise FacepinError(f"{path.name}: this work was taken up or discarded already")
+            return Leftover(self.draft, parse_scene(read_bytes(path), path.name), self.time)
+        except FacepinError:
+            self.draft.release()
+            raise
+
 
 def leftovers(folder: Path) -> tuple[list[Leftover], list[str]]:
-    """Claim what windows that are gone left behind in a folder.
+    """Find what windows that are gone left behind in a folder; none of it is held, however much it is.
 
     Returns
     -------
     list of Leftover
-        Newest first, faces at rest after all others.  Drafts of windows that live, and of newer versions of
-        the program, are left alone.
+        Newest first.  Drafts of windows that live, of newer versions of the program, and of faces at rest are
+        left alone.
     list of str
         One line for each draft that can't be read; it is set aside.
     """
@@ -108,15 +128,14 @@ def leftovers(folder: Path) -> tuple[list[Leftover], list[str]]:
                 torn.unlink(missing_ok=True)
             try:
                 scene = parse_scene(read_bytes(draft.path), draft.path.name)
-                found.append(Leftover(draft, scene, datetime.fromtimestamp(draft.path.stat().st_mtime)))
+                if scene.is_touched:
+                    found.append(Leftover(draft, scene, datetime.fromtimestamp(draft.path.stat().st_mtime)))
             except NewerVersion:
-                draft.release()
+                pass
             except FacepinError as error:
                 if draft.path.exists():
                     remarks.append(f"unsaved work can't be read: {error}; {set_aside(draft.path)}")
+            finally:
                 draft.release()
-    found.sort(key=lambda leftover: (leftover.scene.is_touched, leftover.time), reverse=True)
-    for old in found[MOST_KEPT:]:
-        old.draft.remove()
-        old.draft.release()
-    return found[:MOST_KEPT], remarks
+    found.sort(key=lambda leftover: leftover.time, reverse=True)
+    return found, remarks

@@ -8,6 +8,7 @@ import pytest
 from facepin.core.pose import FRONT_AXES, Pin, as_vector
 from facepin.core.rig import Rig
 from facepin.core.shapes.motion import shape_moves
+from facepin.core.shapes.places import find_places
 from facepin.files.formats import open_rig
 from facepin.resources import resource
 from facepin.session.edit import Edit
@@ -92,3 +93,20 @@ def test_the_nostril_pulled_up_sneers_on_its_side(rig: Rig) -> None:
 
 def test_corners_pulled_in_are_a_kiss(rig: Rig) -> None:
     assert "mouthPucker" in Hand(rig).drag(*both("mouthSmile", (-0.03, 0.0))).used()
+
+
+def test_shapes_that_cancel_each_other_out_are_hardly_ever_used_at_once(rig: Rig) -> None:
+    random = np.random.default_rng(3)
+    against = rig.sentinels.likeness < -0.3
+    drags = fights = 0
+    for vertex in random.choice(np.flatnonzero(find_places(rig).moved), 20, replace=False).tolist():
+        rest = rig.neutral[vertex].astype(float)
+        for way in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            session = Session(rig, [choose("hand")])
+            goal = rest + 0.03 * rig.height * np.array([*way, 0])
+            session.apply(
+                Edit("Drag", True, (Pin(vertex, as_vector(goal), "screen", FRONT_AXES),), solve=True)
+            )
+            used = session.pose.weights > 0.1
+            drags, fights = drags + 1, fights + bool(against[np.ix_(used, used)].any())
+    assert fights <= 0.05 * drags

@@ -27,6 +27,9 @@ RETURN = 0.3
 OPPOSED, FULLY_USED, OPPOSITION = -0.3, 0.1, 3.0
 """A shape costs up to `OPPOSITION` times more while one with a likeness below `OPPOSED` is in use, fully so
 from a weight of `FULLY_USED` on."""
+OUTDONE = 1.5
+"""How much more a shape costs, next to its price, that another one works against which suits the pull better:
+more would make weights jump where the mouse turns."""
 ALLOWED = 0.015
 """Far motion that is not minded, as a share of the face height: where all that moves a point moves what is
 far still more, the point is stiff, but not dead."""
@@ -157,8 +160,9 @@ class _Hand:
     def _directed(self, pull: Floats, wanted: Floats) -> tuple[Springs, float]:
         """Return the springs for one direction of the pull, and the share of it that shapes can reach."""
         springs, work = self._springs, pull @ self._rows
+        raising = springs.raising * (1.0 + OUTDONE * self._outdone(work, springs.raising))
         springs = Springs(
-            springs.raising + BACK * np.maximum(-work, 0.0),
+            raising + BACK * np.maximum(-work, 0.0),
             springs.lowering + BACK * np.maximum(work, 0.0),
             springs.stiffness,
             springs.low,
@@ -167,6 +171,21 @@ class _Hand:
         change, _ = springs.answer(work)
         asked, reached = float(pull @ wanted), float(work @ change)
         return springs, min(1.0, reached / asked) if asked > 0 else 1.0
+
+    def _outdone(self, work: Floats, price: Floats) -> Floats:
+        """Return how much better (0 to 1) one that works against it suits the pull, for each shape (k,).
+
+        Else two that nearly cancel out would share a pull that is a little beside either.
+        """
+        suits = np.divide(work, price, out=np.zeros_like(work), where=price > 0)
+        suits = np.maximum(suits, 0.0)
+        used = np.flatnonzero(suits > 1.0)
+        against = self._grasp.likeness[used] < OPPOSED
+        better = (
+            np.clip(1.0 - suits / suits[used, None], 0.0, 1.0) * np.minimum(suits[used] - 1.0, 1.0)[:, None]
+        )
+        outdone: Floats = np.where(against, better, 0.0).max(axis=0, initial=0.0)
+        return outdone
 
     def _balanced(
         self, wanted: Floats, springs: Springs, pull: Floats, start: Floats, allowed: float

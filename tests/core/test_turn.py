@@ -71,11 +71,13 @@ def test_what_nothing_is_known_of_is_left_as_it_is(lies: Turn) -> None:
     assert upright(sheet().turned(lies)) == AS_IN_FILE
 
 
-def test_what_the_file_says_counts_first() -> None:
-    rig = replace(head(), up=(0.0, 1.0, 0.0), front=(0.0, 0.0, -1.0))
-    assert upright(rig) == (-1, 2, -3)
-    said = replace(head(("one", "two", "three")), up=(0.0, 0.0, 1.0), front=(0.0, -1.0, 0.0))
-    assert upright(said) == (1, 3, -2)
+def test_a_file_that_says_where_the_front_is_is_believed_unless_the_face_is_elsewhere() -> None:
+    said = replace(sheet(), up=(0.0, 1.0, 0.0), front=(0.0, 0.0, -1.0))
+    assert upright(said) == (-1, 2, -3)
+    backwards = head(("one", "two", "three")).turned((-1, 2, -3))
+    assert upright(replace(backwards, up=(0.0, 1.0, 0.0), front=(0.0, 0.0, -1.0))) == (-1, 2, -3)
+    wrongly = replace(head(), up=(0.0, 1.0, 0.0), front=(0.0, 0.0, -1.0))
+    assert upright(wrongly) == AS_IN_FILE, "what moves is in front, whatever the file says"
 
 
 def test_an_axis_that_lies_between_two_is_none() -> None:

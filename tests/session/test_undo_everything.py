@@ -157,6 +157,7 @@ MAKERS: dict[type, Maker] = {
 """How a request with something to say is made up."""
 
 ELSEWHERE = {
+    requests.ShowParts,  # what is drawn
     requests.OpenPath,
     requests.CancelLoading,
     requests.RestoreWork,

@@ -16,6 +16,12 @@ uniform sampler2D colours;
 uniform float cutout;   // alpha below which there is nothing
 in vec2 place_in_texture;
 #endif
+#if defined(TEXTURED) || defined(BLENDED)
+uniform float opacity;  // multiplies the alpha of the texture
+#endif
+#if defined(TEXTURED) && defined(BLENDED)
+uniform float solid;    // alpha from which on it has been drawn already
+#endif
 
 out vec4 pixel;
 
@@ -48,14 +54,25 @@ vec3 mirrored_lamps(vec3 n, vec3 to_eye, vec4 seen)
 
 #endif
 
+float alpha = 1.0;
+
 // The colour of the surface here; grey where only its lightness counts.
 vec3 painted()
 {
     vec3 own = base.rgb;
+#ifdef BLENDED
+    alpha = opacity;
+#endif
 #ifdef TEXTURED
     vec4 texel = texture(colours, place_in_texture);
-    if (texel.a < cutout)
+    float there = texel.a * opacity;
+    if (there < cutout)
         discard;
+#ifdef BLENDED
+    if (there >= solid)
+        discard;
+    alpha = there;
+#endif
     own *= texel.rgb;
 #endif
     own = paint.a < 0.0 ? vec3(dot(own, vec3(0.21, 0.72, 0.07))) : own;
@@ -73,5 +90,5 @@ void main()
 #else
     vec3 light = studio(n, to_eye, painted(), base.a, opening);
 #endif
-    pixel = vec4(picture(light), 1.0);
+    pixel = vec4(picture(light), alpha);
 }

@@ -14,6 +14,7 @@ from facepin.core.look.shading import MODES
 from facepin.options import (
     VIEWS,
     add_rig,
+    add_turn,
     first_pose,
     open_with_bar,
     output_path,
@@ -76,6 +77,7 @@ def _info(options: Namespace) -> None:
 
 def _render_options(parser: ArgumentParser) -> None:
     add_rig(parser)
+    add_turn(parser)
     parser.add_argument(
         "--pose", type=Path, metavar="FILE", help="pose file (default: the weights of the rig itself)"
     )
@@ -115,12 +117,12 @@ def _render(options: Namespace) -> None:
 
     if not 0.1 <= options.scale <= 100:
         raise FacepinError(f"--scale {options.scale:g}: allowed are 0.1 to 100")
-    rig = open_with_bar(options.rig, options.neutral)
+    rig = open_with_bar(options.rig, options.neutral, options.turn)
     pose = first_pose(rig, options.pose, None)
     positions = rig.evaluate(pose.weights)
     width, height = options.size
     looking = Camera(radius=0.0).looking(options.view)
-    camera = frame_points(positions, width / height, looking)
+    camera = frame_points(positions[rig.head], width / height, looking)
     mode = MODES[options.shading]
     heat = None
     if mode.shading == "heat":

@@ -8,6 +8,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.look.camera import View
 from facepin.core.pose import Pose, rest_pose
 from facepin.core.rig import Rig
+from facepin.core.turn import Turn, parse_turn
 from facepin.resources import BUILTIN, builtin_faces, resource
 from facepin.session.solving.solving import SolverChoice, choose
 from facepin.solvers import SOLVERS
@@ -20,23 +21,32 @@ MOST = 1000
 """Pictures of one series."""
 
 
-def open_with_bar(path: Path | None, neutral: str | None = None) -> Rig:
+def open_with_bar(path: Path | None, neutral: str | None = None, turn: Turn | None = None) -> Rig:
     """Open a rig (the built-in face for None), with a progress bar where a person is watching."""
-    from facepin.files import open_rig
+    from facepin.files.upright import open_upright
 
     path = path or resource("assets", BUILTIN)
     if not sys.stderr.isatty():
-        return open_rig(path, neutral=neutral)
+        return open_upright(path, neutral=neutral, turn=turn, settings=settings_folder())
     from rich.console import Console
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(f"Opening {path.name}", total=1.0)
-        return open_rig(
+        return open_upright(
             path,
             neutral=neutral,
+            turn=turn,
+            settings=settings_folder(),
             progress=lambda done, line: bar.update(task, completed=done, description=line),
         )
+
+
+def settings_folder() -> Path:
+    """Return the folder that remembers what the user chose."""
+    from platformdirs import user_config_path
+
+    return user_config_path("facepin", appauthor=False)
 
 
 def solver_choices(keys: str, settings: list[str], keep_limits: bool) -> list[SolverChoice]:
@@ -75,6 +85,29 @@ def add_rig(parser: ArgumentParser) -> None:
     """Add RIG and --neutral."""
     parser.add_argument("rig", type=rig_path, metavar="RIG", help=_rig_help())
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
+
+
+def add_turn(parser: ArgumentParser) -> None:
+    """Add --turn."""
+    parser.add_argument(
+        "--turn",
+        type=_turn,
+        metavar="TURN",
+        help="how the face lies compared with its file: file, or quarter turns such as x-90 or x90,y180 "
+        "(default: as it was turned in the window, else upright)",
+    )
+
+
+def add_view(parser: ArgumentParser) -> None:
+    """Add --view."""
+    parser.add_argument("--view", choices=VIEWS, default="front", help="from where (default: front)")
+
+
+def _turn(text: str) -> Turn:
+    try:
+        return parse_turn(text)
+    except ValueError as error:
+        raise ArgumentTypeError(str(error)) from error
 
 
 def add_rigs(parser: ArgumentParser) -> None:

@@ -169,3 +169,25 @@ def test_a_narrow_picture_shows_more_above_and_below_instead_of_cutting_the_side
         np.testing.assert_allclose(back, side[0], atol=1e-9)
     wide = Viewport(0, 0, 1600, 1000)
     np.testing.assert_array_equal(camera.projection(wide.aspect), free.projection(wide.aspect))
+
+
+def test_without_perspective_what_is_parallel_stays_so() -> None:
+    camera = frame_points(cloud(), 1.0).through(orthographic=True)
+    viewport = Viewport(0, 0, 800, 800)
+    points = np.array([[0.5, 0.5, z] for z in (-1.0, 0.0, 1.0)])
+    x, y, depth = camera.looking("front").project(points, viewport).T
+    assert np.ptp(x) < 1 and np.ptp(y) < 1
+    assert depth.min() > camera.near and depth.max() < camera.far
+    back = camera.through(orthographic=False)
+    assert back.distance == pytest.approx(frame_points(cloud(), 1.0).distance)
+    assert camera.pixel_size(viewport) == pytest.approx(back.pixel_size(viewport))
+    assert camera.orthographic and not back.orthographic
+
+
+def test_focusing_changes_what_is_turned_about_and_not_the_picture() -> None:
+    point = CAMERA.eye - 3 * CAMERA.axes[2] + CAMERA.axes[0]
+    camera = CAMERA.focused(point)
+    np.testing.assert_allclose(camera.eye, CAMERA.eye)
+    np.testing.assert_allclose(camera.project(cloud(), VIEWPORT), CAMERA.project(cloud(), VIEWPORT))
+    assert camera.distance == pytest.approx(3)
+    assert CAMERA.focused(CAMERA.eye + CAMERA.axes[2]) is CAMERA, "it is behind the eye"

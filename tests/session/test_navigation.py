@@ -1,3 +1,6 @@
+from collections.abc import Callable
+
+import numpy as np
 import pytest
 
 from facepin.core.events import Modifiers, PointerMoved, PointerPressed, PointerReleased, Scrolled
@@ -107,3 +110,59 @@ def test_a_second_button_does_not_end_the_motion_of_the_first() -> None:
     navigator.handle(PointerPressed(10, 10, "middle"), CAMERA, VIEWPORT, PRESETS["facepin"])
     navigator.handle(PointerReleased(10, 10, "left"), CAMERA, VIEWPORT, PRESETS["facepin"])
     assert navigator.holding
+
+
+def on_wall(camera: Camera, depth: float) -> Callable[[tuple[float, float]], np.ndarray]:
+    """A surface that faces +z at some z."""
+
+    def point(pixel: tuple[float, float]) -> np.ndarray:
+        origin, direction = camera.ray(pixel, VIEWPORT)
+        return origin + direction * (depth - origin[2]) / direction[2]
+
+    return point
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_the_wheel_comes_close_to_the_surface_and_never_through_it(orthographic: bool) -> None:
+    camera, at, surface = CAMERA.through(orthographic=orthographic), (300.0, 100.0), 2.0
+    under = on_wall(camera, surface)(at)
+    for _ in range(60):
+        camera = Navigator().handle(
+            Scrolled(*at, 1), camera, VIEWPORT, PRESETS["facepin"], on_wall(camera, surface)
+        )
+        x, y, depth = camera.project([under], VIEWPORT)[0]
+        assert (x, y) == pytest.approx(at, abs=0.5)
+        assert depth > camera.near
+        assert camera.eye[2] > surface
+    # What was as far as the eye before is far away now: the picture shows little but skin.
+    assert camera.pixel_size(VIEWPORT) < CAMERA.pixel_size(VIEWPORT) / 50
+
+
+@pytest.mark.parametrize(
+    ("button", "modifiers"), [("right", ALT), ("left", Modifiers(control=True, alt=True))]
+)
+def test_a_dolly_never_leads_through_the_surface(button: str, modifiers: Modifiers) -> None:
+    habit = "blender" if modifiers.control else "maya"
+    navigator, preset, camera = Navigator(), PRESETS[habit], CAMERA
+    for _ in range(10):
+        camera = navigator.handle(
+            PointerPressed(200, 150, button, modifiers), camera, VIEWPORT, preset, on_wall(camera, 2.0)
+        )
+        camera = navigator.handle(PointerMoved(500, 150), camera, VIEWPORT, preset)
+        navigator.handle(PointerReleased(500, 150, button), camera, VIEWPORT, preset)
+        assert camera.eye[2] > 2.0 + camera.near
+
+
+def test_panning_follows_the_surface_under_the_mouse() -> None:
+    navigator, preset = Navigator(), PRESETS["facepin"]
+    under = on_wall(CAMERA, 6.0)((200, 150))
+    camera = navigator.handle(
+        PointerPressed(200, 150, "middle", Modifiers(shift=True)),
+        CAMERA,
+        VIEWPORT,
+        preset,
+        on_wall(CAMERA, 6.0),
+    )
+    camera = navigator.handle(PointerMoved(260, 100), camera, VIEWPORT, preset)
+    x, y, _ = camera.project([under], VIEWPORT)[0]
+    assert (x, y) == pytest.approx((260, 100))

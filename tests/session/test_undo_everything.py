@@ -18,7 +18,7 @@ from facepin.desk.desk import Desk
 from facepin.desk.library import Library
 from facepin.files.work.pose_file import write_pose
 from facepin.panels import requests
-from facepin.panels.commands import PICTURES, Command
+from facepin.panels.commands import FACE_TURNS, PICTURES, Command
 from facepin.panels.library import requests as shelf
 from facepin.panels.requests import Request
 from facepin.panels.view import View
@@ -47,6 +47,7 @@ ASK_FOR_A_FILE = {
 }
 NOT_HERE = {
     *PICTURES,  # draw
+    *FACE_TURNS,  # begin anew
     Command.SAVE_CHART,
     Command.CONTACT_SHEET,
     Command.POSE_PICTURES,
@@ -156,6 +157,7 @@ MAKERS: dict[type, Maker] = {
 """How a request with something to say is made up."""
 
 ELSEWHERE = {
+    requests.ShowParts,  # what is drawn
     requests.OpenPath,
     requests.CancelLoading,
     requests.RestoreWork,

@@ -32,3 +32,28 @@ def write_sheet(path: Path) -> Path:
         path, neutral=small.neutral, faces=small.triangles, deltas=deltas, names=np.array(small.shape_names)
     )
     return path
+
+
+def ball(middle: tuple[float, float, float], radius: float, rows: int = 16) -> tuple[np.ndarray, np.ndarray]:
+    """A ball of (rows + 1) x rows vertices, and its quadrilaterals."""
+    polar, round_ = np.meshgrid(
+        np.linspace(0, np.pi, rows + 1), 2 * np.pi * np.arange(rows) / rows, indexing="ij"
+    )
+    points = np.stack(
+        [np.sin(polar) * np.sin(round_), np.cos(polar), np.sin(polar) * np.cos(round_)], axis=-1
+    ).reshape(-1, 3)
+    at = np.arange(rows * rows).reshape(rows, rows)
+    beside = np.roll(at, -1, axis=1)
+    faces = np.stack([at, at + rows, beside + rows, beside], axis=-1).reshape(-1, 4)
+    return (points * radius + middle).astype(np.float32), faces
+
+
+def rig_of(name: str, neutral: np.ndarray, faces: np.ndarray, shapes: np.ndarray) -> Rig:
+    """A rig of quadrilaterals with shapes s0, s1 …"""
+    return build_rig(
+        name,
+        neutral,
+        faces.ravel(),
+        np.full(len(faces), 4),
+        [(f"s{at}", delta) for at, delta in enumerate(shapes)],
+    )

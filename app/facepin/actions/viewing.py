@@ -8,8 +8,8 @@ from facepin.core.look.camera import Camera, frame_points
 from facepin.core.look.face_view import MARGIN, expressive
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
-from facepin.panels.commands import VIEW_COMMANDS, Command
-from facepin.panels.requests import Request, ShadeAs
+from facepin.panels.commands import FACE_TURNS, VIEW_COMMANDS, Command
+from facepin.panels.requests import Request, ShadeAs, ShowParts
 
 STEP = radians(15)
 CLOSEST = 0.25
@@ -37,6 +37,11 @@ def act(request: Request, desk: Desk) -> bool:
             desk.look(_framed(desk, stage))
         case Command() if request in VIEW_COMMANDS:
             desk.look(desk.camera.looking(VIEW_COMMANDS[request]))
+        case Command() if request in FACE_TURNS:
+            desk.turn(FACE_TURNS[request])
+            return True
+        case Command.ORTHOGRAPHIC:
+            desk.look(desk.camera.through(orthographic=not desk.camera.orthographic))
         case Command() if request in TURNS:
             yaw, pitch = TURNS[request]
             desk.look(desk.camera.orbited(yaw, pitch))
@@ -52,6 +57,9 @@ def act(request: Request, desk: Desk) -> bool:
                 desk.view.reference_shown = not desk.view.reference_shown
         case ShadeAs(mode):
             shown.mode = mode
+        case ShowParts(hidden):
+            desk.view.hidden_parts = hidden
+            stage.hide(hidden)
         case Command.WIREFRAME:
             shown.wireframe = not shown.wireframe
         case Command.GHOST:

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -13,7 +13,9 @@ from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.columns import Columns
+from facepin.core.extent import face_height, head_vertices
 from facepin.core.sentinels import Sentinels, find_sentinels
+from facepin.core.turn import AS_IN_FILE, Turn, after, back, turn_deltas, turn_points
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +101,8 @@ class Rig:
     """Unit vector from the face towards whom it looks at, where the file says; None where it does not."""
     poses: tuple[tuple[str, Floats], ...] = ()
     """Poses that the file brings: titles, each once, and weights (k,), read-only."""
+    turn: Turn = AS_IN_FILE
+    """How the face lies here, compared with its file."""
     warnings: tuple[str, ...] = ()
     """What the reader had to mend or leave out, one line each."""
     source: Path | None = None
@@ -132,9 +136,16 @@ class Rig:
 
     @cached_property
     def height(self) -> float:
-        """Extent of the neutral along y (the face height that percentages refer to), never zero."""
-        extent = np.ptp(self.neutral, axis=0)
-        return float(extent[1] or extent.max() or 1.0)
+        """Extent of the head along y (the face height that percentages refer to), never zero.
+
+        That of the whole neutral, unless shapes move a small part of it only: the face of a body.
+        """
+        return face_height(self.neutral, self.deltas)
+
+    @cached_property
+    def head(self) -> NDArray[np.bool_]:
+        """(n,) which vertices are the head: all, unless the mesh is a whole body."""
+        return head_vertices(self.neutral, self.deltas, self.height)
 
     @cached_property
     def columns(self) -> Columns:
@@ -164,6 +175,8 @@ class Rig:
     @cached_property
     def fingerprint(self) -> str:
         """Hex digits that are the same as long as mesh and shapes are, whatever they are called."""
+        if self.turn != AS_IN_FILE:
+            return self.turned(back(self.turn)).fingerprint
         found = sha256()
         for array, kind in (
             (self.neutral, "<f4"),
@@ -176,6 +189,18 @@ class Rig:
         ):
             found.update(np.ascontiguousarray(array, dtype=kind).data)
         return found.hexdigest()[:32]
+
+    def turned(self, turn: Turn, warning: str = "") -> "Rig":
+        """Return the rig after a turn, maybe with a warning that says so."""
+        return replace(
+            self,
+            neutral=turn_points(self.neutral, turn),
+            deltas=turn_deltas(self.deltas, turn),
+            turn=after(self.turn, turn),
+            up=None,
+            front=None,
+            warnings=(warning, *self.warnings) if warning else self.warnings,
+        )
 
     def amounts(self, weights: Floats) -> Floats:
         """How much of each column of `deltas` a pose has, (k + c,): its weights (k,), then their products.

@@ -9,14 +9,16 @@ import numpy as np
 from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera, Viewport, frame_points
 from facepin.core.rig import Rig
+from facepin.core.turn import Turn
 from facepin.desk.faults import Faults, Within
 from facepin.desk.keeping import Keeper
 from facepin.desk.library import Library, library_of
 from facepin.desk.opening import Begun, Opener, Opening, SceneOpening
 from facepin.desk.portraits import Portraits
 from facepin.desk.questions import Question, Questions
-from facepin.desk.scenes import Snapshot, shown_over
+from facepin.desk.scenes import Snapshot, shown_over, turned_scene
 from facepin.desk.stage import Stage
+from facepin.files.work.turns import write_turn
 from facepin.panels.commands import Command
 from facepin.panels.file_dialog import FileDialog, Kind
 from facepin.panels.view import PaneView, View
@@ -87,7 +89,7 @@ class Desk:
         self.filmstrip = Filmstrip()
         self.job: Job | None = None
         """What is being made beside the work."""
-        self.opener = Opener()
+        self.opener = Opener(settings)
         self.message = ""
         self.is_error = False
         self.opened: Path | None = None
@@ -310,7 +312,7 @@ class Desk:
         file = leftover = None
         moved = False
         if isinstance(opening, SceneOpening):
-            file, leftover, moved = opening.file, opening.leftover, opening.lost is not None
+            file, leftover, moved = opening.file, opening.leftover, opening.lost is not None or opening.turned
         self.keeper.begin(begun.session, file, leftover, saved=not moved)
         self._look_at(begun, stage)
         if leftover is None and (file or not opening.source.asset):
@@ -330,15 +332,32 @@ class Desk:
     def _look_at(self, begun: Begun, stage: Stage) -> None:
         """Give each pane the camera that it comes with, or one that frames the face."""
         session = begun.session
-        width, height, _ = np.ptp(session.rig.neutral, axis=0).tolist()
+        head = session.rig.head
+        width, height, _ = np.ptp(session.rig.neutral[head], axis=0).tolist()
         camera = Camera(radius=0.0, least_aspect=min(1.15 * width / max(height, 1e-9), 2.0))
-        framed = frame_points(stage.positions(session.active), self.viewport.aspect, camera)
+        framed = frame_points(stage.positions(session.active)[head], self.viewport.aspect, camera)
         self.cameras = [own or framed for own in begun.cameras]
-        self.view.panes = list(begun.views)
+        self.view.panes, self.view.hidden_parts = list(begun.views), frozenset()
         if begun.linked is not None:
             self.view.linked = begun.linked
         self.view.reference_shown = begun.reference_shown
         self._numbers, self._looks = [pane.number for pane in session.panes], {}
+
+    def turn(self, turn: Turn) -> None:
+        """Turn the face, with all the work on it, and remember that; undo begins anew.
+
+        Raises
+        ------
+        FacepinError
+            When that is impossible, or can't be kept.
+        """
+        snapshot, opening = self.snapshot(), self._open
+        assert opening is not None, "there is something to turn"
+        scene = turned_scene(snapshot, turn)
+        file = opening.file if isinstance(opening, SceneOpening) else self.keeper.file
+        self._show(snapshot.rig.turned(turn), SceneOpening(scene, file, opening.source, turned=True))
+        self.say("The face is turned, and will be when it is opened again")
+        write_turn(self._settings, opening.source.path, scene.rig.turn)
 
     def ask(
         self,

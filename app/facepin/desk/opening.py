@@ -9,7 +9,7 @@ from facepin.core.look.camera import Camera
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk.scenes import RigSource, resume
-from facepin.files import open_rig
+from facepin.files.upright import open_upright
 from facepin.files.work.drafts import Leftover
 from facepin.files.work.scene_file import SUFFIX, Scene, places, read_scene
 from facepin.panels.view import PaneView
@@ -93,6 +93,8 @@ class SceneOpening:
     leftover: Leftover | None = None
     lost: Lost | None = None
     """What waited for the rig, where the user showed it: it was not where the scene says."""
+    turned: bool = False
+    """The user turned the face of what is open."""
 
     def begin(self, rig: Rig, choices: Sequence[SolverChoice]) -> Begun:
         """Return the session that the scene holds.
@@ -113,7 +115,9 @@ Opening = RigOpening | SceneOpening
 class Opener:
     """Reads rigs beside the window, each for what is to be done with it; the last one asked for wins."""
 
-    def __init__(self) -> None:
+    def __init__(self, settings: Path | None = None) -> None:
+        """Turn faces as the folder of settings remembers."""
+        self._settings = settings
         self.loading: Loading | None = None
         self.lost: Lost | None = None
         """A scene that waits until its rig is shown."""
@@ -200,9 +204,13 @@ class Opener:
     def _load(self, opening: Opening) -> None:
         self.cancel()
         self._coming = opening
-        neutral = opening.source.neutral
+        neutral, settings = opening.source.neutral, self._settings
+        turn = opening.scene.rig.turn if isinstance(opening, SceneOpening) else None
         self.loading = Loading(
-            opening.source.path, lambda path, progress: open_rig(path, neutral=neutral, progress=progress)
+            opening.source.path,
+            lambda path, progress: open_upright(
+                path, neutral=neutral, progress=progress, turn=turn, settings=settings
+            ),
         )
 
 

@@ -12,10 +12,11 @@ from facepin.core.control import Flags, ShapeControl
 from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera
 from facepin.core.names import listed
-from facepin.core.pose import FRONT_AXES, Pin, Pose
+from facepin.core.pose import FRONT_AXES, Pin, Pose, Vector
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
 from facepin.core.shapes.mirror import Mirror, find_mirror
+from facepin.core.turn import Turn
 from facepin.files.safely.checked_json import JsonObject
 from facepin.files.work.pins_file import parse_pins, pins_as_json
 from facepin.files.work.scene_file import RigReference, Scene, SceneControl, ScenePane, Weights
@@ -106,6 +107,7 @@ def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
             vertices=rig.vertex_count,
             shapes=rig.shape_names,
             fingerprint=rig.fingerprint,
+            turn=rig.turn,
         ),
         tuple(map(in_scene, work.panes, snapshot.cameras, snapshot.shown)),
         _pins_of(work.panes[0].pose.pins),
@@ -118,6 +120,27 @@ def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
         snapshot.of if draft else None,
         snapshot.sections,
     )
+
+
+def turned_scene(snapshot: Snapshot, turn: Turn) -> Scene:
+    """Return a snapshot as a scene whose face is turned; its pins go along, its cameras look anew."""
+
+    def place(vector: Vector) -> Vector:
+        x, y, z = (float(vector[abs(axis) - 1]) * (1 if axis > 0 else -1) for axis in turn)
+        return x, y, z
+
+    def along(pose: Pose) -> Pose:
+        pins = (
+            replace(pin, goal=place(pin.goal), axes=(place(pin.axes[0]), place(pin.axes[1])))
+            for pin in pose.pins
+        )
+        return pose.with_pins(tuple(pins))
+
+    work = snapshot.work
+    panes = tuple(replace(pane, pose=along(pane.pose)) for pane in work.panes)
+    turned = replace(snapshot, rig=snapshot.rig.turned(turn), work=replace(work, panes=panes))
+    scene = scene_of(turned, draft=True)
+    return replace(scene, panes=tuple(replace(pane, camera=None) for pane in scene.panes))
 
 
 def resume(scene: Scene, rig: Rig) -> Resumed:

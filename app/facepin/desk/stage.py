@@ -11,9 +11,10 @@ import numpy as np
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.control import ShapeControl
+from facepin.core.look.alpha import Presence
 from facepin.core.look.camera import Camera, Viewport
 from facepin.core.mesh.normals import NormalField
-from facepin.core.mesh.picking import pick
+from facepin.core.mesh.picking import Hit, pick
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.core.shapes.answering import answering
@@ -74,13 +75,7 @@ class Stage:
         self._scene = Scene(ctx, session.rig)
         self._still = StillLayer(self._scene)
         self._markers = MarkerLayer(ctx)
-        shown = [
-            session.rig.triangles[part.triangles.start : part.triangles.stop]
-            for part in self._scene.parts
-            if material(part, session.rig.colours is not None) is not None
-        ]
-        self.triangles: Indices = frozen(np.concatenate(shown) if shown else session.rig.triangles, np.int32)
-        """(t, 3) what is drawn, hence what can be pressed."""
+        self.hide(frozenset())
         self._appraiser = Appraiser(session.rig)
         self._shells: dict[Ghost, _Shell] = {}
         self._sitter: PaneMesh | None = None
@@ -90,6 +85,21 @@ class Stage:
         # So that the first press need not wait for what a hand asks of a face.
         Thread(target=_get_ready, args=(rig,), name="get ready for a hand", daemon=True).start()
         self.update()
+
+    def hide(self, names: frozenset[str]) -> None:
+        """Show all parts but those of some names from now on: what is not drawn can't be pressed."""
+        rig = self.session.rig
+        self._scene.hide(names)
+        self._still.forget()
+        shown = [
+            part
+            for part in self._scene.parts
+            if part.name not in names and material(part, rig.colours is not None) is not None
+        ]
+        self.present = Presence(rig, shown)
+        """Tells where what is drawn can be pressed: not where it is cut out, nor where it is clear."""
+        self.triangles: Indices = frozen(self.present.triangles, np.int32)
+        """(t, 3) what is drawn, hence what can be pressed."""
 
     @cached_property
     def places(self) -> Places:
@@ -152,11 +162,15 @@ class Stage:
         assert positions is not None, "update() fills this"
         return positions
 
+    def hit(self, pane: int, camera: Camera, viewport: Viewport, pixel: tuple[float, float]) -> Hit | None:
+        """Return where the ray through a pixel of a pane meets the face, or None."""
+        return pick(self.positions(pane), self.triangles, camera, viewport, pixel, present=self.present)
+
     def vertex_under(
         self, pane: int, camera: Camera, viewport: Viewport, pixel: tuple[float, float]
     ) -> int | None:
         """Return the vertex of a pane that a press at a pixel would pin, or None."""
-        hit = pick(self.positions(pane), self.triangles, camera, viewport, pixel)
+        hit = self.hit(pane, camera, viewport, pixel)
         return None if hit is None else hit.vertex
 
     def appraise(self, pane: int) -> Appraisal:

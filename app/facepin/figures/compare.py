@@ -23,6 +23,7 @@ from facepin.options import (
     VIEWS,
     add_rig,
     add_solver,
+    add_turn,
     first_pose,
     open_with_bar,
     picture_size,
@@ -42,6 +43,7 @@ BEYOND = "white: further than the scale goes"
 def add_options(parser: ArgumentParser) -> None:
     """Declare the options of `facepin compare`."""
     add_rig(parser)
+    add_turn(parser)
     parser.add_argument("--pins", type=Path, required=True, metavar="FILE", help="pins file (JSON)")
     add_solver(parser, "all", "--solvers")
     parser.add_argument(
@@ -66,7 +68,7 @@ def run(options: Namespace) -> list[Path]:
         raise FacepinError(f"--size: found {max(options.size)} pixels, allowed for one face: {LARGEST_PANE}")
     choices = solver_choices(options.solver, options.settings, options.limits)
     folder = made_folder(options.out)
-    rig = open_with_bar(options.rig, options.neutral)
+    rig = open_with_bar(options.rig, options.neutral, options.turn)
     start = Pose(rig.rest_weights * 0) if options.start is None else first_pose(rig, options.start, None)
     start = start.with_pins(first_pose(rig, None, options.pins).pins)
     if not start.pins:

@@ -10,7 +10,7 @@ from facepin.figures.compare import made_folder, progress_line
 from facepin.figures.pictures import Painter
 from facepin.files.safely.atomic import atomic_write
 from facepin.files.work.pose_library import saved_poses
-from facepin.options import VIEWS, add_rig, count, open_with_bar, picture_size, png_path
+from facepin.options import VIEWS, add_rig, add_turn, count, open_with_bar, picture_size, png_path
 from facepin.session.shelf import standing
 from facepin.sheets import Pane, contact_columns, write_sheet
 
@@ -18,6 +18,7 @@ from facepin.sheets import Pane, contact_columns, write_sheet
 def add_options(parser: ArgumentParser) -> None:
     """Declare the options of `facepin sheet`."""
     add_rig(parser)
+    add_turn(parser)
     parser.add_argument(
         "--poses", type=Path, required=True, metavar="FOLDER", help="pose files, as a library has them"
     )
@@ -37,7 +38,7 @@ def run(options: Namespace) -> list[Path]:
 
     if not options.poses.is_dir():
         raise FacepinError(f"{options.poses}: no such folder")
-    rig = open_with_bar(options.rig, options.neutral)
+    rig = open_with_bar(options.rig, options.neutral, options.turn)
     poses: dict[str, SavedPose] = {}
     for found in saved_poses(options.poses, rig):
         if isinstance(found, FacepinError):

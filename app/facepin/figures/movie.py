@@ -20,6 +20,8 @@ from facepin.figures.posing import DELIGHT, dragged, handles, named_weights
 from facepin.files.animation import Animation
 from facepin.options import (
     add_solver,
+    add_turn,
+    add_view,
     count,
     first_pose,
     open_with_bar,
@@ -64,6 +66,8 @@ def add_options(parser: ArgumentParser) -> None:
         "rig", type=rig_path, nargs="?", metavar="RIG", help="face to pose (default: the built-in one)"
     )
     parser.add_argument("--neutral", metavar="NAME", help="file with the neutral in a folder of .obj files")
+    add_turn(parser)
+    add_view(parser)
     parser.add_argument(
         "--pins", type=Path, metavar="FILE", help="what is dragged, pin by pin (default: a delighted face)"
     )
@@ -84,7 +88,7 @@ def run(options: Namespace) -> Path:
     choices = solver_choices(options.solver, options.settings, options.limits)
     if len(choices) != 1:
         raise FacepinError(f"a movie shows one solver at work, found {len(choices)}: '{options.solver}'")
-    rig = open_with_bar(options.rig, options.neutral)
+    rig = open_with_bar(options.rig, options.neutral, options.turn)
     if not rig.shape_count or rig.largest_moves.max() < REST * rig.height:
         raise FacepinError(f"{rig.name}: no shape moves the face, so there is nothing to be seen in a movie")
     pins = _delight(rig) if options.pins is None else first_pose(rig, None, options.pins).pins
@@ -94,7 +98,7 @@ def run(options: Namespace) -> Path:
     with progress_line() as tell, open_context() as ctx:
         width, height = options.size
         face = (max(round(width * (1 - SLIDERS)), 1), height)
-        painter = Painter(ctx, rig, face)
+        painter = Painter(ctx, rig, face, options.view)
         shapes = _shapes(rig, moments)
         animation, picture = Animation(), None
         for number, moment in enumerate(moments):

@@ -10,7 +10,7 @@ from facepin.figures.compare import made_folder, progress_line
 from facepin.figures.pictures import Painter
 from facepin.files.animation import Animation
 from facepin.files.safely.atomic import atomic_write
-from facepin.options import add_rig, count, first_pose, open_with_bar, picture_size
+from facepin.options import add_rig, add_turn, add_view, count, first_pose, open_with_bar, picture_size
 
 SECONDS = 2.4
 """Of one turn."""
@@ -19,6 +19,8 @@ SECONDS = 2.4
 def add_options(parser: ArgumentParser) -> None:
     """Declare the options of `facepin turntable`."""
     add_rig(parser)
+    add_turn(parser)
+    add_view(parser)
     parser.add_argument(
         "--pose", type=Path, metavar="FILE", help="pose file (default: the weights of the rig itself)"
     )
@@ -47,10 +49,12 @@ def run(options: Namespace) -> Path:
         raise FacepinError(
             f"{options.out.name}: a turntable is an animated .png or a folder, found '{options.out.suffix}'"
         )
-    rig = open_with_bar(options.rig, options.neutral)
+    rig = open_with_bar(options.rig, options.neutral, options.turn)
     pose = first_pose(rig, options.pose, None)
     positions = rig.evaluate(pose.weights)
-    camera = frame_points(positions, options.size[0] / options.size[1], Camera(radius=0.0))
+    camera = frame_points(
+        positions[rig.head], options.size[0] / options.size[1], Camera(radius=0.0).looking(options.view)
+    )
     animation = Animation()
     if not suffix:
         made_folder(options.out)

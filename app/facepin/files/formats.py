@@ -7,6 +7,7 @@ from pathlib import Path
 from facepin.core.arrays import Floats
 from facepin.core.errors import FacepinError
 from facepin.core.rig import Rig
+from facepin.core.turn import AS_IN_FILE, back
 from facepin.files.gltf.reader import read_gltf
 from facepin.files.gltf.writer import write_glb
 from facepin.files.mesh_writers import write_obj, write_ply, write_stl
@@ -80,6 +81,7 @@ def write_model(rig: Rig, weights: Floats, path: str | os.PathLike[str]) -> None
     """Write a face posed with `weights` (k,); the suffix of `path` chooses the format, see `WRITERS`.
 
     A .glb keeps the rig: neutral, shapes, and `weights` as its own weights.  The others hold the posed mesh.
+    What was turned lies as in its own file again: it fits what it was made for.
 
     Raises
     ------
@@ -91,7 +93,7 @@ def write_model(rig: Rig, weights: Floats, path: str | os.PathLike[str]) -> None
     if suffix not in WRITERS:
         found = suffix or "files without a suffix"
         raise FacepinError(f"{path.name}: no writer for {found!r}, there are: {known(WRITERS)}")
-    WRITERS[suffix](rig, weights, path)
+    WRITERS[suffix](rig if rig.turn == AS_IN_FILE else rig.turned(back(rig.turn)), weights, path)
 
 
 def _reader_for(path: Path, neutral: str | None) -> Callable[[Path, ReadOptions], Rig]:

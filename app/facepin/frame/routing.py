@@ -19,6 +19,7 @@ from facepin.core.events import (
     Scrolled,
 )
 from facepin.core.look.camera import Viewport
+from facepin.core.pose import Vector
 from facepin.core.shapes.gaze import Gaze, find_gaze
 from facepin.desk.desk import Desk
 from facepin.desk.stage import Stage
@@ -205,7 +206,13 @@ class Router:
         pane = min(self._pane, len(viewports) - 1)  # it may have been closed meanwhile
         own = pane if pane < len(desk.cameras) else None
         before = desk.camera if own is None else desk.cameras[own]
-        camera = self.navigator.handle(event, before, viewports[pane], PRESETS[desk.view.habit])
+        viewport, stage = viewports[pane], desk.stage
+
+        def surface(pixel: Pixel) -> Vector | None:
+            hit = None if stage is None else stage.hit(pane, before, viewport, pixel)
+            return None if hit is None else hit.point
+
+        camera = self.navigator.handle(event, before, viewport, PRESETS[desk.view.habit], surface)
         if camera is not before:
             desk.look(camera, own)
 
@@ -227,6 +234,7 @@ class Router:
             stage.session.mirror if desk.view.symmetric else None,
             desk.view.steady,
             lambda _: stage.places,
+            stage.present,
         )
 
 

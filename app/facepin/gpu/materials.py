@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from facepin.core.arrays import Points
+from facepin.core.look.alpha import SOLID, is_blended, is_clear, opacity
 from facepin.core.mesh.topology import DrawRun
 from facepin.core.rig import Part, Rig, Texture
 from facepin.gpu.eyes import paint_iris
@@ -80,7 +81,10 @@ class Run:
     """The side that is never seen, so that triangles showing it are left out."""
     texture: Texture | None = None
     cutout: float | None = None
-    """Alpha of the texture below which there is nothing."""
+    """Alpha, `opacity` times that of the texture, below which there is nothing."""
+    opacity: float = 1.0
+    middle: tuple[float, float, float] | None = None
+    """Of what is blended with what is behind it: where it is, to be drawn after what is farther."""
 
     def batches(self, most: int) -> Iterator[range]:
         """Cut the corners of the run into ranges of at most so many, a multiple of 3."""
@@ -108,10 +112,12 @@ def material(part: Part, coloured: bool) -> Material | None:
     Parameters
     ----------
     part : Part
-        What the file says about it counts first.
+        What the file says about it counts first.  What is clear is not seen.
     coloured : bool
         The rig has vertex colours: the part's own colour is then not used.
     """
+    if is_clear(part):
+        return None
     named = by_name(part)
     # White is what a file says whose colours are in a texture, or that does not care.
     own = part.colour if part.colour != WHITE else None
@@ -129,19 +135,33 @@ def material(part: Part, coloured: bool) -> Material | None:
     return Material(colour, roughness, inside.scatter, inside.reflects, named.wet)
 
 
-def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
-    """Join the runs of a draw order that look the same, so that a face of many parts needs few calls."""
+def material_runs(
+    rig: Rig, order: tuple[DrawRun, ...], left_out: frozenset[str] = frozenset()
+) -> tuple[Run, ...]:
+    """Join the runs of a draw order that look the same, so that a face of many parts needs few calls.
+
+    What is blended stays apart.  Parts whose names are `left_out` are not drawn.
+    """
     runs: list[Run] = []
     for piece in order:
-        look = material(rig.parts[piece.part], rig.colours is not None)
-        if look is None:
+        part = rig.parts[piece.part]
+        look = material(part, rig.colours is not None)
+        if look is None or part.name in left_out:
             continue
         r, g, b = linear(np.array(look.colour)).tolist()
         first, count = 3 * piece.triangles.start, 3 * len(piece.triangles)
-        part = rig.parts[piece.part]
         card = (None, None) if rig.texture_places is None else (part.texture, part.cutout)
+        if part.blends:
+            card = card[0], None
         inside = (look.roughness, look.scatter, look.reflects, look.wet)
         run = Run(first, count, (r, g, b), *inside, piece.hidden, *card)
+        if is_blended(part):
+            corners = rig.neutral[rig.triangles[part.triangles.start : part.triangles.stop]]
+            x, y, z = corners.reshape(-1, 3).mean(axis=0).tolist()
+            runs.append(replace(run, opacity=opacity(part), middle=(x, y, z)))
+            continue
+        if run.cutout is not None:
+            run = replace(run, opacity=part.opacity)
         before = runs[-1] if runs else None
         if before is not None and before.first + before.count == first:
             joined = replace(before, count=before.count + count)
@@ -150,6 +170,21 @@ def material_runs(rig: Rig, order: tuple[DrawRun, ...]) -> tuple[Run, ...]:
                 continue
         runs.append(run)
     return tuple(runs)
+
+
+def in_two_passes(runs: tuple[Run, ...]) -> tuple[tuple[Run, ...], tuple[Run, ...]]:
+    """Return what hides what is behind it, and what is then blended over that.
+
+    What is solid in a blended texture, the inside of a lock of hair, comes first with its depth: so that it
+    need not be sorted.
+    """
+    blended = tuple(run for run in runs if run.middle is not None)
+    hard = [
+        replace(run, middle=None, cutout=SOLID) if run.middle is not None else run
+        for run in runs
+        if run.middle is None or (run.texture is not None and run.opacity >= SOLID)
+    ]
+    return tuple(hard), blended
 
 
 def cull_hidden(ctx: moderngl.Context, run: Run) -> None:

@@ -1,6 +1,5 @@
 """A rig on the graphics card, and the panes that show it in different poses."""
 
-from functools import cached_property
 from itertools import cycle
 from typing import Literal
 
@@ -17,12 +16,15 @@ from facepin.gpu.canvas import Canvas
 from facepin.gpu.eyeballs import eyes_apart
 from facepin.gpu.framing import Framing, frame
 from facepin.gpu.kept import Kept
-from facepin.gpu.materials import cull_hidden, material_runs, vertex_albedo
+from facepin.gpu.materials import Run, cull_hidden, in_two_passes, material_runs, vertex_albedo
 from facepin.gpu.motion import Motion
 from facepin.gpu.openness import Openness
 from facepin.gpu.shaders import ProgramName, Shaders
 
 Part = Literal["all", "moving", "still"]
+
+BLENDING = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+"""Of colours that are not premultiplied, into a picture that is."""
 
 BATCH = 3 * 12_000
 """Corners of what moves that a processor takes in before it begins to fill their triangles."""
@@ -35,14 +37,14 @@ class Scene:
         self.ctx = ctx
         self.rig = rig
         look = eyes_apart(rig)
+        self._look = look
         self.parts = look.parts
         """Those of the rig, and eyes that it does not name."""
         order = draw_order(look)
         self.triangles = order.triangles
         """(t, 3) int32, those of the rig in the order of `indices`."""
-        self.runs = material_runs(look, order.runs)
-        self.solid = tuple(run for run in self.runs if run.cutout is None)
-        """Those that are not cut out of cards by a texture."""
+        self._order = order.runs
+        self.hide(frozenset())
         self.indices = ctx.buffer(order.triangles)
         self._albedo_values = vertex_albedo(look)
         self.albedo = ctx.buffer(self._albedo_values)
@@ -54,6 +56,16 @@ class Scene:
         self.kept = Kept()
         """What overlays share."""
         self._openness: Openness | None = Openness(ctx, look, order, self.solid, self.indices)
+
+    def hide(self, names: frozenset[str]) -> None:
+        """Draw all parts but those of some names from now on."""
+        hard, blended = in_two_passes(material_runs(self._look, self._order, names))
+        self.runs: tuple[Run, ...] = hard
+        """What hides what is behind it."""
+        self.blended: tuple[Run, ...] = blended
+        """What is drawn over that, and lets it be seen."""
+        self.solid: tuple[Run, ...] = tuple(run for run in hard if run.cutout is None)
+        """Those of `runs` that are not cut out of cards by a texture."""
 
     @property
     def refined(self) -> bool:
@@ -102,14 +114,19 @@ class PaneMesh:
         self._uploaded: tuple[Points, Points] | None = None
         self._there: Points | None = None
         """Positions on the card: those that were taken over, or these but for what `motion` has settled."""
+        self._motion: tuple[tuple[Run, ...], Motion] | None = None
+        """With what it sorts: other parts may be hidden since."""
         self._arrays = _Arrays(self, scene.indices)
         self._sorted: tuple[moderngl.Buffer, _Arrays] | None = None
         """The triangles as `motion` sorts them."""
 
-    @cached_property
+    @property
     def motion(self) -> Motion:
         """What moves from picture to picture; see `StillLayer`."""
-        return Motion(self.scene.rig, self.scene.triangles, self.scene.runs)
+        if self._motion is None or self._motion[0] is not self.scene.runs:
+            runs = self.scene.runs
+            self._motion = runs, Motion(self.scene.rig, self.scene.triangles, runs)
+        return self._motion[1]
 
     def upload(self, positions: Points, normals: Points) -> bool:
         """Take over a pose; do nothing when these very arrays are there already.
@@ -242,6 +259,25 @@ class PaneMesh:
                     if batch.start > run.first:
                         framing.use(next(targets))
                     array.render(moderngl.TRIANGLES, vertices=len(batch), first=batch.start)
+        if part != "still" and shading != "normals" and scene.blended:
+            self._blend(canvas, framing, shading)
+
+    def _blend(self, canvas: Canvas, framing: Framing, shading: Shading) -> None:
+        """Draw what lets be seen what is behind it, farthest part first; depth stays that of the rest."""
+        ctx, scene = self.scene.ctx, self.scene
+        canvas.framebuffer.depth_mask = False
+        framing.use(canvas.framebuffer)
+        ctx.blend_func = BLENDING  # type: ignore[assignment]  # it may have four, which its stub does not know
+        for run in sorted(
+            scene.blended, key=lambda run: float(framing.to_view[2, :3] @ np.array(run.middle))
+        ):
+            array = self._arrays.of(scene.shaders.use(run, shading, fine=True))
+            for side in reversed(run.sides):  # its own far side first
+                cull_hidden(ctx, side)
+                ctx.enable(moderngl.BLEND)
+                array.render(moderngl.TRIANGLES, vertices=side.count, first=side.first)
+        canvas.framebuffer.depth_mask = True
+        framing.use(canvas.framebuffer)
 
     def release(self) -> None:
         """Give the graphics memory back."""

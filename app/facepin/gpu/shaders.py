@@ -5,6 +5,7 @@ from typing import Literal
 import moderngl
 import numpy as np
 
+from facepin.core.look.alpha import SOLID
 from facepin.core.look.shading import Shading
 from facepin.core.rig import Texture
 from facepin.gpu.framing import Framing
@@ -12,7 +13,9 @@ from facepin.gpu.lamps import Sight, sight
 from facepin.gpu.materials import CLAY, Run, linear
 from facepin.gpu.programs import load_program
 
-ProgramName = Literal["fast", "fine", "wet", "textured", "wet textured", "normals"]
+ProgramName = Literal[
+    "fast", "fine", "wet", "textured", "wet textured", "blended", "blended textured", "normals"
+]
 
 SHADERS: dict[ProgramName, tuple[str, ...]] = {
     "fast": ("mesh_fast",),
@@ -20,6 +23,8 @@ SHADERS: dict[ProgramName, tuple[str, ...]] = {
     "wet": ("mesh", "WET"),
     "textured": ("mesh", "TEXTURED"),
     "wet textured": ("mesh", "WET", "TEXTURED"),
+    "blended": ("mesh", "BLENDED"),
+    "blended textured": ("mesh", "BLENDED", "TEXTURED"),
     "normals": ("normals",),
 }
 """Name and definitions of the shader pair of each program."""
@@ -64,10 +69,14 @@ class Shaders:
             self._told[name] = self._sight
         if shading == "normals":
             return name
-        if run.texture is not None and name in ("textured", "wet textured"):
+        if run.texture is not None and name.endswith("textured"):
             self._picture(run.texture).use(0)
             program["colours"] = 0
             program["cutout"] = run.cutout or 0.0
+        if (run.texture is not None and name.endswith("textured")) or name == "blended":
+            program["opacity"] = run.opacity
+        if name == "blended textured":
+            program["solid"] = SOLID if run.opacity >= SOLID else 2.0  # the rest is there already
         material = run if shading == "studio" or run.wet else CLAY
         scatter = run.scatter if shading == "studio" else CLAY.scatter
         paint = (*run.tint, 1.0) if shading == "studio" else (*self._clay, 0.0)
@@ -106,6 +115,8 @@ class Shaders:
 def _program_of(run: Run, shading: Shading, *, fine: bool) -> ProgramName:
     if shading == "normals":
         return "normals"
+    if run.middle is not None:
+        return "blended" if run.texture is None else "blended textured"
     if run.texture is not None and (shading == "studio" or run.cutout is not None):
         return "wet textured" if run.wet else "textured"
     if run.wet:

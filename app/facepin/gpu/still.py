@@ -46,7 +46,7 @@ class StillLayer:
         """
         framings = [frame(camera, viewport) for viewport, camera in sights]
         faces = [(*face, framing) for face, framing in zip(shown, framings, strict=True) if face is not None]
-        sight = (canvas.size, tuple(sights), tuple(shown), beside, self._scene.refined)
+        sight = (canvas.size, tuple(sights), tuple(shown), beside, self._scene.refined, self._scene.runs)
         if sight != self._sight:
             self.forget()
             for mesh, _, framing in faces:

@@ -5,6 +5,7 @@ from typing import Literal
 
 from facepin.core.events import KeyPressed
 from facepin.core.look.camera import View
+from facepin.core.turn import QUARTERS, Turn
 from facepin.session.navigation import Habit
 
 Topic = Literal["File", "Edit", "Pins", "Poses", "View", "Compare", "Help"]
@@ -170,6 +171,30 @@ class Command(Enum):
         "Looks half from the side, half from the front.",
     )
     BACK = "Back", ("Ctrl+1", "Ctrl+Numpad 1"), "View", "Looks at the back of the head."
+    ORTHOGRAPHIC = (
+        "Orthographic",
+        ("5", "Numpad 5"),
+        "View",
+        "Draws parallel lines parallel, without perspective; once more brings it back.",
+    )
+    FACE_FORWARD = (
+        "Turn the face forward",
+        (),
+        "View",
+        "A quarter turn about the axis through the ears, for a face that lies on its back in its file.",
+    )
+    FACE_ROUND = (
+        "Turn the face round",
+        (),
+        "View",
+        "A quarter turn about the upright axis, for a face that looks elsewhere in its file.",
+    )
+    FACE_SIDEWAYS = (
+        "Turn the face sideways",
+        (),
+        "View",
+        "A quarter turn about the axis that it looks along, for a face that lies on its side in its file.",
+    )
     TURN_LEFT = "Turn to the left", ("Numpad 4",), "View", "Steps round the face, to the left of the picture."
     TURN_RIGHT = (
         "Turn to the right",
@@ -266,6 +291,13 @@ VIEW_COMMANDS: dict[Command, View] = {
     Command.THREE_QUARTER: "three-quarter",
     Command.BACK: "back",
 }
+
+FACE_TURNS: dict[Command, Turn] = {
+    Command.FACE_FORWARD: QUARTERS["x"],
+    Command.FACE_ROUND: QUARTERS["y"],
+    Command.FACE_SIDEWAYS: QUARTERS["z"],
+}
+"""How each turns the face."""
 
 HABIT_KEYS: dict[Habit, dict[Command, tuple[str, ...]]] = {
     "facepin": {},

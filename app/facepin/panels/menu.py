@@ -7,10 +7,19 @@ from imgui_bundle import imgui
 
 from facepin.panels import layout
 from facepin.panels.availability import is_on, title_of, why_not
-from facepin.panels.commands import VIEW_COMMANDS, Command, key_of
+from facepin.panels.commands import FACE_TURNS, VIEW_COMMANDS, Command, key_of
 from facepin.panels.picture.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.pins import STROKES
-from facepin.panels.requests import AddPane, Choose, ClosePane, KeepPane, OpenPath, RandomReference, Request
+from facepin.panels.requests import (
+    AddPane,
+    Choose,
+    ClosePane,
+    KeepPane,
+    OpenPath,
+    RandomReference,
+    Request,
+    ShowParts,
+)
 from facepin.panels.view import CHOICES, View
 from facepin.resources import builtin_faces
 from facepin.session.reference import RANDOM_SHAPES
@@ -98,13 +107,17 @@ def menu_bar(
         imgui.end_menu()
     if imgui.begin_menu("View"):
         close_on_escape()
-        asked = _items(view, session, Command.FRAME, *VIEW_COMMANDS) or asked
+        asked = _items(view, session, Command.FRAME, *VIEW_COMMANDS, Command.ORTHOGRAPHIC) or asked
         imgui.separator()
         if session is not None:
             overlay_items(
                 view.panes[session.active], view.habit, has_reference=session.work.reference is not None
             )
             asked = _items(view, session, Command.GAZE) or asked
+            asked = _parts(view, session) or asked
+            if imgui.begin_menu("Turn the face"):
+                asked = _items(view, session, *FACE_TURNS) or asked
+                imgui.end_menu()
             imgui.separator()
         asked = _choices(view, "quality") or asked
         imgui.end_menu()
@@ -165,6 +178,23 @@ def _pins(view: View, session: Session) -> Request | None:
         imgui.end_menu()
     imgui.separator()
     return _items(view, session, Command.SAVE_LANDMARKS, Command.LOAD_LANDMARKS) or asked
+
+
+def _parts(view: View, session: Session) -> Request | None:
+    """Draw the submenu of the parts of the mesh: each is shown or hidden, alone or all together."""
+    asked: Request | None = None
+    names = tuple(dict.fromkeys(part.name for part in session.rig.parts))
+    hidden = view.hidden_parts
+    if imgui.begin_menu("Parts", len(names) > 1 or bool(hidden)):
+        if imgui.menu_item_simple("Show all", enabled=bool(hidden)):
+            asked = ShowParts(frozenset())
+        imgui.separator()
+        for at, name in enumerate(names):
+            if imgui.menu_item_simple(f"{name.replace('##', '# #')}##{at}", selected=name not in hidden):
+                asked = ShowParts(hidden ^ {name})
+            explain_item("What is hidden is neither drawn nor pressed; it goes on moving.")
+        imgui.end_menu()
+    return asked
 
 
 def _items(view: View, session: Session | None, *commands: Command) -> Command | None:

@@ -166,6 +166,14 @@ class ShadeAs:
 
 
 @dataclass(frozen=True)
+class ShowParts:
+    """Show all parts of the mesh but some."""
+
+    hidden: frozenset[str]
+    """Names of those that are neither drawn nor pressed."""
+
+
+@dataclass(frozen=True)
 class CancelLoading:
     """Give up opening a file, or looking for the rig of a scene."""
 
@@ -192,6 +200,7 @@ Request = (
     | PairShapes
     | Choose
     | ShadeAs
+    | ShowParts
     | SetPins
     | NamePin
     | RemovePins

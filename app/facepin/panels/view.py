@@ -147,6 +147,8 @@ class View:
     recovery: RecoveryView = field(default_factory=RecoveryView)
     linked: bool = True
     """One camera for all panes."""
+    hidden_parts: frozenset[str] = frozenset()
+    """Names of the parts of the mesh that are not shown."""
     theme_name: ThemeName = "dark"
     habit: Habit = "facepin"
     """Whose mouse and keys the user knows."""

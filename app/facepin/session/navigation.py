@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import Literal
 
+from numpy.typing import ArrayLike
+
 from facepin.core.events import (
     Button,
     Event,
@@ -37,6 +39,9 @@ def dolly(camera: Camera, dx: float, dy: float, viewport: Viewport) -> Camera:
     """Come closer when the mouse goes right or up."""
     return camera.zoomed(1.006 ** (dx - dy))
 
+
+Surface = Callable[[tuple[float, float]], ArrayLike | None]
+"""pixel -> point (3,) of the face there, None beside it."""
 
 Habit = Literal["facepin", "maya", "blender"]
 """Whose way of moving the camera the user's hand knows."""
@@ -99,12 +104,28 @@ class Navigator:
         """Whether a camera drag is going on: it then gets all pointer events until the release."""
         return self._motion is not None
 
-    def handle(self, event: Event, camera: Camera, viewport: Viewport, preset: Preset) -> Camera:
-        """Take one event in a viewport; return the camera after it (the same object when nothing moved)."""
+    def handle(
+        self,
+        event: Event,
+        camera: Camera,
+        viewport: Viewport,
+        preset: Preset,
+        surface: Surface | None = None,
+    ) -> Camera:
+        """Take one event in a viewport; return the camera after it (the same object when nothing moved).
+
+        With the `surface` of what is seen, panning follows what is under the mouse, and coming closer ends
+        before it.
+        """
         match event:
             case PointerPressed(x, y, button, modifiers) if self._motion is None:
                 self._motion = preset.motions.get((button, modifiers))
                 self._button, self._at, self._viewport = button, (x, y), viewport
+                if self._motion is pan:
+                    return _focused(camera, (x, y), surface)
+                if self._motion is dolly:  # straight ahead
+                    middle = viewport.x + viewport.width / 2, viewport.y + viewport.height / 2
+                    return _focused(camera, middle, surface)
             case PointerMoved(x, y) if self._motion is not None:
                 dx, dy = x - self._at[0], y - self._at[1]
                 self._at = (x, y)
@@ -112,5 +133,11 @@ class Navigator:
             case PointerReleased(button=button) if button == self._button:
                 self._motion = None
             case Scrolled(x, y, steps):
-                return camera.zoomed(WHEEL**steps, (x, y), viewport)
+                return _focused(camera, (x, y), surface).zoomed(WHEEL**steps, (x, y), viewport)
         return camera
+
+
+def _focused(camera: Camera, pixel: tuple[float, float], surface: Surface | None) -> Camera:
+    """Return the camera with its target as deep as what is seen at a pixel."""
+    point = None if surface is None else surface(pixel)
+    return camera if point is None else camera.focused(point)

@@ -22,6 +22,13 @@ VIEWS: dict[View, tuple[float, float]] = {
 """Yaw and pitch of the named views.  "left" shows the side that is left to the character, +x."""
 
 
+USUAL_LENS = radians(30)
+"""Vertical opening angle of the perspective camera."""
+PARALLEL = radians(0.1)
+"""That of the orthographic one: a lens so long, from so far away, that lines which are parallel are so in a
+picture to a fraction of a pixel.  Being a camera like any other, picking and all drawing agree with it."""
+
+
 @dataclass(frozen=True)
 class Viewport:
     """A rectangle of framebuffer pixels, origin top left."""
@@ -52,7 +59,7 @@ class Camera:
     """Angle about y; positive shows the character's left side."""
     pitch: float = 0.0
     """Angle above the horizon, −π/2..π/2."""
-    fov_y: float = radians(30)
+    fov_y: float = USUAL_LENS
     """Full vertical opening angle."""
     least_aspect: float = 0.0
     """Width over height that is seen at least: a narrower picture shows more above and below, instead of
@@ -77,8 +84,11 @@ class Camera:
 
     @property
     def near(self) -> float:
-        """Depth at which drawing and picking start.  A fiftieth of the distance keeps 24-bit depth fine."""
-        return self.distance / 50
+        """Depth at which drawing and picking start.  A fiftieth of the distance keeps 24-bit depth fine.
+
+        From far away through a long lens it is as far before the face as `far` is behind it.
+        """
+        return max(self.distance / 50, self.distance - 12 * self.radius)
 
     @property
     def far(self) -> float:
@@ -172,13 +182,37 @@ class Camera:
 
         With `at` and its viewport, what lies under that pixel at the target's depth stays there.
         """
-        distance = min(max(self.distance / factor, self.radius / 200), self.radius * 100)
+        lens = tan(USUAL_LENS / 2) / tan(self.fov_y / 2)  # a longer one sees as much from farther away
+        distance = min(max(self.distance / factor, self.radius * lens / 200), self.radius * lens * 100)
         moved = replace(self, distance=distance)
         if at is None or viewport is None:
             return moved
         under = self.plane_point(at, self.target, viewport)
         target = np.array(self.target)
         return moved._aimed(target + (1 - distance / self.distance) * (under - target))
+
+    def focused(self, point: ArrayLike) -> "Camera":
+        """Return the camera with its target in the middle of the picture, as deep as a point (3,) is.
+
+        The picture stays the same; coming closer then never leads past that point, and panning follows it.
+        A point that is not between near and far changes nothing.
+        """
+        back = self.axes[2]
+        depth = float((self.eye - np.asarray(point, np.float64)) @ back)
+        if not self.near <= depth <= self.far:
+            return self
+        return replace(self, distance=depth)._aimed(self.eye - depth * back)
+
+    @property
+    def orthographic(self) -> bool:
+        """Whether lines that are parallel in space are parallel in the picture."""
+        return self.fov_y <= PARALLEL
+
+    def through(self, *, orthographic: bool) -> "Camera":
+        """Return the camera with parallel lines or in perspective; what is at the target keeps its size."""
+        fov_y = PARALLEL if orthographic else USUAL_LENS
+        distance = self.distance * tan(self.fov_y / 2) / tan(fov_y / 2)
+        return replace(self, fov_y=fov_y, distance=distance)
 
     def looking(self, view: View) -> "Camera":
         """Return the camera turned to a named view, same target and distance."""

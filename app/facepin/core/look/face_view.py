@@ -17,7 +17,7 @@ STIRRED = 0.02
 def face_camera(rig: Rig, size: tuple[int, int], view: View = "front", margin: float = MARGIN) -> Camera:
     """Return a camera that sees the part of the neutral that shapes move, in pictures of (width, height)."""
     aspect = size[0] / size[1]
-    camera = frame_points(rig.neutral, aspect, Camera(radius=0.0).looking(view))
+    camera = frame_points(rig.neutral[rig.head], aspect, Camera(radius=0.0).looking(view))
     chosen = expressive(rig)
     return camera if chosen.all() else frame_points(rig.neutral[chosen], aspect, camera, margin)
 
@@ -35,10 +35,10 @@ def expressive(rig: Rig) -> NDArray[np.bool_]:
         anywhere[stirred] = True
         if np.count_nonzero(lengths > REST * rig.height) <= rig.vertex_count / 2:
             local[stirred] = True
-    for chosen in (local, anywhere):
+    for chosen in (local & rig.head, anywhere & rig.head):
         if np.count_nonzero(chosen) > 2:
             return chosen
-    return np.ones(rig.vertex_count, np.bool_)
+    return rig.head
 
 
 def _moves(vertices: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, Floats]:

@@ -1,13 +1,18 @@
 """Which triangle of a face lies under the cursor."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import copysign
 
 import numpy as np
+from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats, Indices, Points
 from facepin.core.look.camera import Camera, Viewport
 from facepin.core.pose import Vector, as_vector
+
+Presence = Callable[[int, Floats], bool]
+"""(number of a triangle, shares (3,) of its corners in a point of it) -> whether anything is there."""
 
 SLACK = 4e-6
 """Rounding of the float32 sieve, relative to the largest coordinate, with a good margin."""
@@ -32,6 +37,7 @@ def pick(
     viewport: Viewport,
     pixel: tuple[float, float],
     two_sided: bool = True,
+    present: Presence | None = None,
 ) -> Hit | None:
     """Return what lies under a pixel, or None.
 
@@ -48,6 +54,8 @@ def pick(
     two_sided : bool
         Back faces count too, so that an open or inside-out mesh can be picked; otherwise only
         counter-clockwise triangles do.
+    present : callable
+        Tells where a triangle has holes, or is too clear to be taken.
 
     Returns
     -------
@@ -58,7 +66,7 @@ def pick(
         return None
     origin, direction = camera.ray(pixel, viewport)
     nearest = camera.near / float(direction @ -camera.axes[2])
-    return first_hit(positions, triangles, origin, direction, nearest, two_sided)
+    return first_hit(positions, triangles, origin, direction, nearest, two_sided, present)
 
 
 def first_hit(
@@ -68,6 +76,7 @@ def first_hit(
     direction: Floats,
     nearest: float = 0.0,
     two_sided: bool = True,
+    present: Presence | None = None,
 ) -> Hit | None:
     """Return the first triangle that a ray meets further than `nearest` from its origin, or None.
 
@@ -86,6 +95,8 @@ def first_hit(
         Hits closer than this are passed over.
     two_sided : bool
         Count triangles seen from behind as well.
+    present : callable
+        Tells where a triangle has holes, or is too clear to be taken.
     """
     frame = _frame(direction)
     u, v, _ = frame
@@ -115,13 +126,27 @@ def first_hit(
     distance = np.full(len(numbers), np.inf)
     np.divide((spans * z.T).sum(axis=0), area, out=distance, where=inside)
     distance[distance < nearest] = np.inf
-    best = int(np.argmin(distance)) if len(numbers) else 0
-    if not len(numbers) or distance[best] == np.inf:
+    best = _first(distance, numbers, spans, area, present)
+    if best is None:
         return None
     point = origin + distance[best] * direction
     gaps = np.linalg.norm(positions[candidates[best]] - point, axis=1)
     vertex = int(candidates[best, np.argmin(gaps)])
     return Hit(int(numbers[best]), vertex, as_vector(point), float(distance[best]))
+
+
+def _first(
+    distance: Floats, numbers: NDArray[np.intp], spans: Floats, area: Floats, present: Presence | None
+) -> int | None:
+    """Return which candidate comes first of those that are there at all, None where there is none."""
+    if not len(distance):
+        return None
+    if present is None:
+        best = int(np.argmin(distance))
+        return best if distance[best] < np.inf else None
+    hit = np.flatnonzero(distance < np.inf)
+    nearest_first = hit[np.argsort(distance[hit], kind="stable")].tolist()
+    return next((at for at in nearest_first if present(int(numbers[at]), spans[:, at] / area[at])), None)
 
 
 def _frame(direction: Floats) -> Floats:

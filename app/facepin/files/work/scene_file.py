@@ -14,9 +14,11 @@ from typing import Any
 
 from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera
+from facepin.core.turn import AS_IN_FILE, Turn
 from facepin.files.safely.atomic import atomic_write
 from facepin.files.safely.checked_json import JsonObject, parse_json
 from facepin.files.safely.reading import read_bytes
+from facepin.files.work.turns import turn_in
 from facepin.solvers.settings import Plain
 
 FORMAT, VERSION = "facepin-scene", 1
@@ -55,6 +57,8 @@ class RigReference:
     vertices: int = 0
     shapes: tuple[str, ...] = ()
     fingerprint: str = ""
+    turn: Turn = AS_IN_FILE
+    """How the face was turned, compared with its file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,6 +172,8 @@ def scene_bytes(scene: Scene, beside: Path | None, *, indent: int | None = None)
         "fingerprint": scene.rig.fingerprint,
         "shapes": list(scene.rig.shapes),
     }
+    if scene.rig.turn != AS_IN_FILE:
+        rig["turn"] = list(scene.rig.turn)
     document: dict[str, Any] = {"format": FORMAT, "version": VERSION, "rig": rig}
     if scene.of is not None:
         document["of"] = str(scene.of)
@@ -236,6 +242,7 @@ def _rig(entry: JsonObject) -> RigReference:
         entry.integer("vertices", 0),
         tuple(entry.strings("shapes")),
         entry.text("fingerprint", ""),
+        turn_in(entry, "turn", AS_IN_FILE),
     )
 
 
@@ -308,7 +315,7 @@ def _camera(entry: JsonObject) -> Camera:
         entry.number("distance", low=1 / FAR, high=FAR),
         entry.number("yaw", 0.0, low=-2 * pi, high=2 * pi),
         entry.number("pitch", 0.0, low=-pi / 2, high=pi / 2),
-        entry.number("fov_y", Camera().fov_y, low=0.01, high=3.0),
+        entry.number("fov_y", Camera().fov_y, low=0.001, high=3.0),
         entry.number("least_aspect", 0.0, low=0.0, high=100.0),
         entry.number("radius", low=1 / FAR, high=FAR),
     )

@@ -22,6 +22,7 @@ from facepin.panels.requests import (
     RandomReference,
     Request,
     ShadeAs,
+    ShowParts,
     UseSolver,
 )
 from facepin.panels.theme import Theme, dim_sentence, packed
@@ -71,6 +72,7 @@ def entries(
             Entry(f"Shading: {kind.title}", "View", ShadeAs(name), on=name == mode)
             for name, kind in MODES.items()
         ]
+        found += _parts(view, session)
     for name, choice in CHOICES.items():
         for value, title in choice.values.items():
             on = getattr(view, name) == value
@@ -84,6 +86,18 @@ def entries(
     ]
     found += [Entry(f"Open {path.name}", "Recent", OpenPath(path), str(path)) for path in recent]
     return found
+
+
+def _parts(view: View, session: Session) -> list[Entry]:
+    """List what can be done with the parts of the mesh."""
+    hidden, names = view.hidden_parts, dict.fromkeys(part.name for part in session.rig.parts)
+    found = [
+        Entry(f"{'Show' if name in hidden else 'Hide'} the part {name}", "View", ShowParts(hidden ^ {name}))
+        for name in names
+        if len(names) > 1
+    ]
+    reason = "" if hidden else "none is hidden"
+    return [*found, Entry("Show all parts", "View", ShowParts(frozenset()), reason=reason)]
 
 
 def _words(pose: SavedPose) -> str:

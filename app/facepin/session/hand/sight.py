@@ -9,7 +9,7 @@ import numpy as np
 
 from facepin.core.arrays import Indices, Points
 from facepin.core.look.camera import Camera, Viewport
-from facepin.core.mesh.picking import Hit, pick
+from facepin.core.mesh.picking import Hit, Presence, pick
 from facepin.core.pose import Freedom, Pin, Pose, as_vector
 from facepin.core.rig import Rig
 from facepin.core.shapes.mirror import Mirror
@@ -53,6 +53,8 @@ class Sight:
     """Whether the goal is to stay where the hand but trembles."""
     find_places: Callable[[Rig], Places] = find_places
     """Names the places of the rig; whoever has them already gives them."""
+    present: Presence | None = None
+    """Tells where triangles are there to be pressed; None for everywhere."""
 
     @cached_property
     def places(self) -> Places:
@@ -71,7 +73,7 @@ class Sight:
 
     def hit(self, pixel: Pixel) -> Hit | None:
         """Return where the ray through a pixel meets the face."""
-        return pick(self.positions, self.triangles, self.camera, self.viewport, pixel)
+        return pick(self.positions, self.triangles, self.camera, self.viewport, pixel, present=self.present)
 
     def apart(self, pixel: Pixel, other: Pixel) -> bool:
         """Say whether two pixels are further apart than a click lets the hand move."""

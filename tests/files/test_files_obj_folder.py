@@ -153,7 +153,7 @@ def test_opening_one_of_the_files_opens_its_folder(tmp_path):
         ("v 1 2 3\nv 1e999 0 0\n", ":2:"),
         ("v 1 2 3\nv 1_0 0 0\n", ":2:"),
         ("v 1 2 3\nv 0x10 0 0\n", ":2:"),
-        ("v 1 2 3\nv 1,0 0 0\n", ":2:"),
+        ("v 1 2 3\nv 1,000.5 0 0\n", ":2:"),
         ("v 1 2 3\nv 1 2\nv 1 2 3 4\n", ":2:"),
         ("v \n", ":1:"),
         ("", "no vertices"),
@@ -171,8 +171,13 @@ def test_refuses_with_file_and_line(tmp_path, text, line):
 def test_refuses_other_counts_links_and_lonely_files(tmp_path):
     folder = face_folder(tmp_path / "f")
     (folder / "blink.obj").write_text(obj_lines(POSITIONS[:3]))
-    with pytest.raises(FacepinError, match=r"blink\.obj: 3 vertices, face_neutral\.obj has 4"):
+    rig = opened(folder)
+    assert rig.shape_names == ("smile",)
+    assert rig.warnings == ("left out: blink.obj: 3 vertices, face_neutral.obj has 4",)
+    (folder / "smile.obj").rename(folder / "smile")
+    with pytest.raises(FacepinError, match=r"^blink\.obj: 3 vertices, face_neutral\.obj has 4$"):
         opened(folder)
+    (folder / "smile").rename(folder / "smile.obj")
     (folder / "blink.obj").unlink()
     (tmp_path / "outside.obj").write_text(obj_lines(POSITIONS))
     (folder / "blink.obj").symlink_to(tmp_path / "outside.obj")

@@ -19,11 +19,11 @@ from facepin.files.npz.archive import open_archive, texts
 from facepin.files.options import Progress
 from facepin.files.safely.atomic import atomic_file
 
-VERSION = 1
+VERSION = 2
 MOST_ENTRIES = 16
 KEYS = (
     *("signature", "neutral", "corners", "face_sizes", "face_parts", "part_names"),
-    *("values", "rows", "starts", "names", "warnings"),
+    *("values", "rows", "starts", "names", "warnings", "colours"),
 )
 
 
@@ -65,6 +65,7 @@ def remember(cache: Path, folder: Path, files: list[Path], neutral: Path, rig: R
                 starts=rig.deltas.indptr,
                 names=np.array(rig.shape_names),
                 warnings=np.array(rig.warnings, dtype=str),
+                colours=np.zeros((0, 3), np.float32) if rig.colours is None else rig.colours,
             )
         entries = sorted(cache.glob("*.npz"), key=lambda path: path.stat().st_mtime, reverse=True)
         for old in entries[MOST_ENTRIES:]:
@@ -99,6 +100,7 @@ def _rig(content: dict[str, NDArray[Any]], folder: Path) -> Rig:
         shapes(),
         parts=[PartLook(name) for name in texts(content["part_names"])],
         face_parts=content["face_parts"],
+        colours=content["colours"] if len(content["colours"]) else None,
         source=folder,
     )
     return replace(rig, warnings=tuple(texts(content["warnings"])))

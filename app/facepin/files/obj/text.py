@@ -75,6 +75,8 @@ def cut_lines(content: bytes, name: str) -> ObjText:
 def read_vertices(text: ObjText) -> Floats:
     """Return the `v` lines, (n, 3) float64; vertex colours and other further numbers are passed over.
 
+    Decimal commas are read as points, where all lines have them or whole numbers.
+
     Raises
     ------
     FacepinError
@@ -85,12 +87,22 @@ def read_vertices(text: ObjText) -> Floats:
         raise FacepinError(f"{text.name}: no vertices (lines that begin with 'v')")
     block = text.joined(lines).decode("ascii", "replace")
     try:
-        vertices: Floats = np.loadtxt(StringIO(block), np.float64, comments=None, usecols=(1, 2, 3), ndmin=2)
+        vertices = _numbers(block)
     except ValueError as error:
-        raise _first_wrong_vertex(text, lines) from error
+        if "," not in block:
+            raise _first_wrong_vertex(text, lines) from error
+        try:  # 1,5 is one and a half where that is how people write it
+            vertices = _numbers(block.replace(",", "."))
+        except ValueError:
+            raise _first_wrong_vertex(text, lines) from error
     if len(vertices) != len(lines) or not np.isfinite(vertices).all():
         raise _first_wrong_vertex(text, lines)
     return vertices
+
+
+def _numbers(block: str) -> Floats:
+    """Return the first three numbers of each line, (n, 3)."""
+    return np.loadtxt(StringIO(block), np.float64, comments=None, usecols=(1, 2, 3), ndmin=2)
 
 
 @dataclass(frozen=True, eq=False)

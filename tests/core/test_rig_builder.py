@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from facepin.core.errors import FacepinError
-from facepin.core.names import clean_name, clean_names
+from facepin.core.names import clean_name, clean_names, listed, shown_name
 from facepin.core.rig_builder import PartLook, build_rig
 from support.sample_files import dense
 
@@ -135,6 +135,14 @@ def test_names_become_printable(raw, clean):
 
 def test_long_names_are_shortened():
     assert len(clean_name("x" * 100_000)) == 64
+
+
+def test_what_is_shown_of_long_names_has_both_ends():
+    left, right = (f"{'long_' * 30}{side}" for side in ("Left", "Right"))
+    assert len(shown_name(left)) == 64
+    assert shown_name(left) != shown_name(right)
+    assert shown_name(" a  b ") == "a b"
+    assert max(map(len, listed([left, right]).split(", "))) == 64
 
 
 def test_names_become_unique_without_taking_a_name_that_is_there():

@@ -171,13 +171,8 @@ def test_refuses_with_file_and_line(tmp_path, text, line):
 def test_refuses_other_counts_links_and_lonely_files(tmp_path):
     folder = face_folder(tmp_path / "f")
     (folder / "blink.obj").write_text(obj_lines(POSITIONS[:3]))
-    rig = opened(folder)
-    assert rig.shape_names == ("smile",)
-    assert rig.warnings == ("left out: blink.obj: 3 vertices, face_neutral.obj has 4",)
-    (folder / "smile.obj").rename(folder / "smile")
-    with pytest.raises(FacepinError, match=r"^blink\.obj: 3 vertices, face_neutral\.obj has 4$"):
+    with pytest.raises(FacepinError, match=r"blink\.obj: 3 vertices, face_neutral\.obj has 4"):
         opened(folder)
-    (folder / "smile").rename(folder / "smile.obj")
     (folder / "blink.obj").unlink()
     (tmp_path / "outside.obj").write_text(obj_lines(POSITIONS))
     (folder / "blink.obj").symlink_to(tmp_path / "outside.obj")

@@ -121,13 +121,12 @@ def test_another_mesh_beside_is_drawn_still(folder, tmp_path):
     assert [part.name for part in second.parts] == ["face", "eye"]
 
 
-def test_another_topology_of_the_same_face_is_left_out(folder):
+def test_another_topology_of_the_same_face_is_no_mesh_beside(folder):
     points, quads = grid()
     finer = np.concatenate([points, points[:5] + 0.01])
     written(folder / "finer.obj", finer, quads)
-    rig = opened(folder)
-    assert rig.shape_names == ("lift",)
-    assert rig.warnings == ("left out: finer.obj: 41 vertices, neutral.obj has 36",)
+    with pytest.raises(FacepinError, match=r"^finer\.obj: 41 vertices, neutral\.obj has 36$"):
+        opened(folder)
 
 
 def test_decimal_commas_are_read(tmp_path):

@@ -13,6 +13,7 @@ from scipy.sparse import csc_array
 
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.columns import Columns
+from facepin.core.names import shown_name
 from facepin.core.sentinels import Sentinels, find_sentinels
 
 
@@ -129,6 +130,11 @@ class Rig:
     def combination_names(self) -> tuple[str, ...]:
         """c names, "a*b" for the combination of a and b."""
         return tuple(f"{self.shape_names[a]}*{self.shape_names[b]}" for a, b in self.combinations.tolist())
+
+    @cached_property
+    def shown_names(self) -> tuple[str, ...]:
+        """k names as charts and tables for people show them: a line of up to 64 characters each."""
+        return tuple(map(shown_name, self.shape_names))
 
     @cached_property
     def height(self) -> float:

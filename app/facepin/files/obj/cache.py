@@ -63,7 +63,7 @@ def remember(cache: Path, folder: Path, files: list[Path], neutral: Path, rig: R
                 values=rig.deltas.data,
                 rows=rig.deltas.indices,
                 starts=rig.deltas.indptr,
-                names=np.array(rig.shape_names),
+                names=np.array(rig.file_names),
                 warnings=np.array(rig.warnings, dtype=str),
                 colours=np.zeros((0, 3), np.float32) if rig.colours is None else rig.colours,
             )

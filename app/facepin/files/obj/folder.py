@@ -26,14 +26,15 @@ def read_obj_folder(folder: Path, options: ReadOptions) -> Rig:
     The neutral is the file whose name contains "neutral", else one that has the word base, basis, rest,
     reference, default or template, unless `options.neutral` names it.  Faces and parts (`usemtl`) come from
     the neutral.  Other meshes beside it (eyes, hair) are parts that no shape moves; a shape whose vertices
-    are in another order or of another mesh than the neutral's is left out, each with a warning.
+    are in another order than the neutral's is left out with a warning.
 
     Raises
     ------
     NeutralUnknown
         Where it has to be asked for.
     FacepinError
-        For a folder without .obj files or without shapes, and with file and line for a broken file.
+        For a folder without .obj files or without shapes, for a shape with more or fewer vertices than the
+        neutral, and with file and line for a broken file.
     """
     files = obj_files(folder)
     neutral = find_neutral(files, options.neutral, folder)
@@ -134,9 +135,8 @@ def _sort_out(mesh: _Mesh, rest: _Mesh, faces: ObjFaces, beside: _Beside) -> Non
     if len(mesh.vertices) != count:
         own = read_faces(mesh.text, len(mesh.vertices))
         if not len(own.sizes) or covers(rest.vertices, mesh.vertices):
-            beside.left_out.append(f"{name}: {_counts(mesh, rest)}")
-        else:
-            beside.meshes.append((mesh, own))
+            raise FacepinError(f"{name}: {_counts(mesh, rest)}")
+        beside.meshes.append((mesh, own))
         return
     vertices = mesh.vertices
     if not _same_lines(mesh.text, rest.text):

@@ -120,7 +120,7 @@ def _render(options: Namespace) -> None:
     positions = rig.evaluate(pose.weights)
     width, height = options.size
     looking = Camera(radius=0.0).looking(options.view)
-    camera = frame_points(positions, width / height, looking)
+    camera = frame_points(positions[rig.drawn], width / height, looking)
     mode = MODES[options.shading]
     heat = None
     if mode.shading == "heat":

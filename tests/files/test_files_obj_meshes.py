@@ -188,3 +188,11 @@ def test_the_cases_people_reported(shared):
     shapes = {folder.name: opened(folder).shape_names for folder in folders}
     assert shapes.pop("obj_neutral_called_reference") == ("head-01-anger", "head-02-cry")
     assert set(shapes.values()) == {("jawOpen",)}
+
+
+def test_the_head_of_a_file_tells_that_it_is_no_text(tmp_path):
+    folder = face_folder(tmp_path / "f")
+    with (folder / "smile.obj").open("wb") as file:
+        file.truncate(1 << 40)  # a hole: far more than fits into memory
+    with pytest.raises(FacepinError, match=r"smile\.obj: UTF-16 or binary content"):
+        opened(folder)

@@ -11,6 +11,7 @@ from facepin.core.pose import FRONT_AXES, Pin, Pose
 from facepin.core.rig_builder import build_rig
 from facepin.files.work.pins_file import read_pins, write_pins
 from facepin.files.work.pose_file import read_pose, write_pose
+from facepin.files.work.pose_table import read_pose_table
 from facepin.files.work.shape_spelling import match_shapes, spelling
 from support.sample_files import POSITIONS
 from support.small_rigs import sheet
@@ -285,3 +286,33 @@ def test_no_pose_is_written_that_could_not_be_read_again(tmp_path: Path, suffix:
     with pytest.raises(FacepinError, match="hold up to"):
         write_pose(tmp_path / f"p{suffix}", RIG, Pose(weights))
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "shape;weight\njawOpen;0,25\n",
+        "\ufeffshape;weight\r\njawOpen;0,25\r\neyeBlink_L;-1,5e-1\r\n",
+        "jawOpen;0.25\n",
+        'sep=;\nshape;weight\njawOpen;"0,25"\n',
+        'shape,weight\njawOpen,"0,25"\n',
+    ],
+)
+def test_tables_with_semicolons_and_decimal_commas_are_read(tmp_path, text):
+    (tmp_path / "p.csv").write_bytes(text.encode())
+    pose, _ = read_pose(tmp_path / "p.csv", RIG)
+    assert pose.weights[:2].tolist() == [0.25, -0.15 if "Blink" in text else 0.0]
+
+
+def test_many_poses_with_semicolons_and_decimal_commas(tmp_path):
+    text = 'Zeit;jawOpen;"Lächeln, breit"\n0,04;0,25;1\n0,08;0,5;0,125\n'
+    (tmp_path / "p.csv").write_bytes(text.encode("utf-8-sig"))
+    weights, unknown, without = read_pose_table(tmp_path / "p.csv", RIG)
+    assert weights.tolist() == [[0.25, 0, 1], [0.5, 0, 0.125]]
+    assert (unknown, without) == (["Zeit"], [])
+
+
+def test_decimal_commas_between_commas_are_refused_with_the_line(tmp_path):
+    (tmp_path / "p.csv").write_text("shape,weight\njawOpen,0,25\n")
+    with pytest.raises(FacepinError, match=r"^p\.csv:2: found 'jawOpen,0,25'"):
+        read_pose(tmp_path / "p.csv", RIG)

@@ -137,9 +137,16 @@ class Rig:
         return tuple(map(shown_name, self.shape_names))
 
     @cached_property
+    def drawn(self) -> NDArray[np.bool_]:
+        """(n,) which vertices a triangle has; the others are nowhere to be seen and count for no extent."""
+        drawn = np.zeros(self.vertex_count, np.bool_)
+        drawn[self.triangles] = True
+        return drawn
+
+    @cached_property
     def height(self) -> float:
-        """Extent of the neutral along y (the face height that percentages refer to), never zero."""
-        extent = np.ptp(self.neutral, axis=0)
+        """Extent of the drawn neutral along y (the face height that percentages refer to), never zero."""
+        extent = np.ptp(self.neutral[self.drawn], axis=0)
         return float(extent[1] or extent.max() or 1.0)
 
     @cached_property

@@ -330,9 +330,11 @@ class Desk:
     def _look_at(self, begun: Begun, stage: Stage) -> None:
         """Give each pane the camera that it comes with, or one that frames the face."""
         session = begun.session
-        width, height, _ = np.ptp(session.rig.neutral, axis=0).tolist()
+        width, height, _ = np.ptp(session.rig.neutral[session.rig.drawn], axis=0).tolist()
         camera = Camera(radius=0.0, least_aspect=min(1.15 * width / max(height, 1e-9), 2.0))
-        framed = frame_points(stage.positions(session.active), self.viewport.aspect, camera)
+        framed = frame_points(
+            stage.positions(session.active)[session.rig.drawn], self.viewport.aspect, camera
+        )
         self.cameras = [own or framed for own in begun.cameras]
         self.view.panes = list(begun.views)
         if begun.linked is not None:

@@ -50,7 +50,7 @@ def run(options: Namespace) -> Path:
     rig = open_with_bar(options.rig, options.neutral)
     pose = first_pose(rig, options.pose, None)
     positions = rig.evaluate(pose.weights)
-    camera = frame_points(positions, options.size[0] / options.size[1], Camera(radius=0.0))
+    camera = frame_points(positions[rig.drawn], options.size[0] / options.size[1], Camera(radius=0.0))
     animation = Animation()
     if not suffix:
         made_folder(options.out)

@@ -17,7 +17,7 @@ STIRRED = 0.02
 def face_camera(rig: Rig, size: tuple[int, int], view: View = "front", margin: float = MARGIN) -> Camera:
     """Return a camera that sees the part of the neutral that shapes move, in pictures of (width, height)."""
     aspect = size[0] / size[1]
-    camera = frame_points(rig.neutral, aspect, Camera(radius=0.0).looking(view))
+    camera = frame_points(rig.neutral[rig.drawn], aspect, Camera(radius=0.0).looking(view))
     chosen = expressive(rig)
     return camera if chosen.all() else frame_points(rig.neutral[chosen], aspect, camera, margin)
 
@@ -31,14 +31,14 @@ def expressive(rig: Rig) -> NDArray[np.bool_]:
     starts, rows, values = rig.deltas.indptr, rig.deltas.indices, rig.deltas.data
     for first, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True):
         vertices, lengths = _moves(rows[first:end] // 3, values[first:end])
-        stirred = vertices[lengths > STIRRED * rig.height]
+        stirred = vertices[(lengths > STIRRED * rig.height) & rig.drawn[vertices]]
         anywhere[stirred] = True
         if np.count_nonzero(lengths > REST * rig.height) <= rig.vertex_count / 2:
             local[stirred] = True
     for chosen in (local, anywhere):
         if np.count_nonzero(chosen) > 2:
             return chosen
-    return np.ones(rig.vertex_count, np.bool_)
+    return rig.drawn
 
 
 def _moves(vertices: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, Floats]:

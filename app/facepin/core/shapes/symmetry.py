@@ -1,5 +1,7 @@
 """Which vertex is at the mirrored place of which, and where the plane between left and right is."""
 
+from typing import Any
+
 import numpy as np
 
 from facepin.core.arrays import Floats, Indices
@@ -61,7 +63,8 @@ def twin_vertices(rig: Rig, middle: float, near: float) -> Indices:
     ways, lengths = _ways_to_neighbours(rig)
     sums = np.asarray(rig.deltas[:, : rig.shape_count].sum(axis=1), np.float64).reshape(-1, 3)
     size = float(np.linalg.norm(sums, axis=1).max(initial=0.0)) or 1.0
-    distances, nearest = cKDTree(points).query(
+    tree: Any = cKDTree(points)  # a list of k gives tables, whatever its length; its types do not tell
+    distances, nearest = tree.query(
         across(points, middle), k=range(1, min(CANDIDATES, count) + 1), distance_upper_bound=near
     )
     there = np.where(np.isfinite(distances), nearest, 0)
@@ -75,8 +78,8 @@ def twin_vertices(rig: Rig, middle: float, near: float) -> Indices:
     twins = np.where(np.isfinite(costs[rows, best]), there[rows, best], -1).astype(np.int32)
     # Where vertices coincide the way back may end on another one at the same place.
     back = np.where(twins >= 0, twins[twins], -1)
-    found: Indices = np.where((back >= 0) & (points[back] == points).all(axis=1), twins, -1)
-    return found
+    mutual: Indices = np.where((back >= 0) & (points[back] == points).all(axis=1), twins, -1)
+    return mutual
 
 
 def _ways_to_neighbours(rig: Rig) -> tuple[Floats, Floats]:

@@ -16,8 +16,11 @@ from facepin.files.obj.cache import recall, remember
 from facepin.files.obj.colours import read_colours
 from facepin.files.obj.neutral_file import find_neutral, neutral_candidates, obj_files
 from facepin.files.obj.same_mesh import covers, likeness
-from facepin.files.obj.text import ObjFaces, ObjText, cut_lines, read_faces, read_vertices
+from facepin.files.obj.text import ObjFaces, ObjText, check_text, cut_lines, read_faces, read_vertices
 from facepin.files.options import ReadOptions
+
+HEAD = 4096
+"""Bytes by which a file is told to be text."""
 
 
 def read_obj_folder(folder: Path, options: ReadOptions) -> Rig:
@@ -125,7 +128,10 @@ def _read(folder: Path, files: Sequence[Path], neutral: Path, options: ReadOptio
 
 
 def _mesh(file: Path) -> _Mesh:
-    text = cut_lines(file.read_bytes(), file.name)
+    with file.open("rb") as stream:  # the head decides before the rest is read
+        head = stream.read(HEAD)
+        check_text(head, file.name)
+        text = cut_lines(head + stream.read(), file.name)
     return _Mesh(file, text, read_vertices(text))
 
 

@@ -49,6 +49,18 @@ class ObjText:
         return b"".join(self.content[self.starts[lines[a]] : self.starts[lines[b - 1] + 1]] for a, b in runs)
 
 
+def check_text(content: bytes, name: str) -> None:
+    """Refuse what is no text.
+
+    Raises
+    ------
+    FacepinError
+        For text that is not one byte per character (UTF-16), or no text at all.
+    """
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in content:
+        raise FacepinError(f"{name}: UTF-16 or binary content, allowed: OBJ as plain text (ASCII or UTF-8)")
+
+
 def cut_lines(content: bytes, name: str) -> ObjText:
     """Cut the content of a file into lines, continuations joined, indentation and a byte order mark removed.
 
@@ -57,8 +69,7 @@ def cut_lines(content: bytes, name: str) -> ObjText:
     FacepinError
         For text that is not one byte per character (UTF-16, or no text at all).
     """
-    if content[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in content:
-        raise FacepinError(f"{name}: UTF-16 or binary content, allowed: OBJ as plain text (ASCII or UTF-8)")
+    check_text(content, name)
     content = content.removeprefix(b"\xef\xbb\xbf")
     if b"\r" in content and b"\n" not in content:
         content = content.replace(b"\r", b"\n")

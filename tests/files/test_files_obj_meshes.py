@@ -196,3 +196,34 @@ def test_the_head_of_a_file_tells_that_it_is_no_text(tmp_path):
         file.truncate(1 << 40)  # a hole: far more than fits into memory
     with pytest.raises(FacepinError, match=r"smile\.obj: UTF-16 or binary content"):
         opened(folder)
+
+
+LIBRARY = """# colours
+newmtl skin
+Kd 0.8 0.5 0.25
+newmtl the eye
+Kd 0 0 0
+map_Kd eye.png
+newmtl tear
+Kd 0.5 0.5 1
+d 0.25
+newmtl odd
+Kd a b
+"""
+
+
+def test_parts_have_the_colours_of_their_materials(tmp_path):
+    folder = face_folder(tmp_path / "f")
+    faces = "".join(f"usemtl {name}\nf 1 2 3\n" for name in ("skin", "the eye", "tear", "odd", "none"))
+    text = "mtllib face colours.mtl\nmtllib ../out.mtl lost.mtl\n" + obj_lines(POSITIONS, faces)
+    (folder / "face_neutral.obj").write_text(text)
+    (folder / "face colours.mtl").write_text(LIBRARY)
+    for rig in (opened(folder), *(open_rig(folder, cache_folder=tmp_path / "cache") for _ in range(2))):
+        assert [part.colour for part in rig.parts] == [(0.8, 0.5, 0.25), None, (0.5, 0.5, 1), None, None]
+        assert [(part.opacity, part.blends) for part in rig.parts][1:3] == [(1, False), (0.25, True)]
+        out, lost, textures = rig.warnings
+        assert "out.mtl' is not in the folder" in out
+        assert "'lost.mtl' is not there" in lost
+        assert "(map_Kd) are left out, of the materials the eye" in textures
+    (folder / "face colours.mtl").write_text(LIBRARY.replace("0.8", "0.9 "))
+    assert open_rig(folder, cache_folder=tmp_path / "cache").parts[0].colour == (0.9, 0.5, 0.25)

@@ -23,7 +23,7 @@ VERSION = 2
 MOST_ENTRIES = 16
 KEYS = (
     *("signature", "neutral", "corners", "face_sizes", "face_parts", "part_names"),
-    *("values", "rows", "starts", "names", "warnings", "colours"),
+    *("values", "rows", "starts", "names", "warnings", "colours", "part_looks"),
 )
 
 
@@ -65,6 +65,7 @@ def remember(cache: Path, folder: Path, files: list[Path], neutral: Path, rig: R
                 starts=rig.deltas.indptr,
                 names=np.array(rig.file_names),
                 warnings=np.array(rig.warnings, dtype=str),
+                part_looks=np.array([[*(part.colour or [np.nan] * 3), part.opacity] for part in rig.parts]),
                 colours=np.zeros((0, 3), np.float32) if rig.colours is None else rig.colours,
             )
         entries = sorted(cache.glob("*.npz"), key=lambda path: path.stat().st_mtime, reverse=True)
@@ -78,8 +79,22 @@ def _entry(cache: Path, folder: Path) -> Path:
 
 def _signature(files: list[Path], neutral: Path) -> str:
     """Return what must be unchanged for an entry to hold."""
-    facts = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in files]
+    libraries = sorted(path for path in neutral.parent.iterdir() if path.suffix.lower() == ".mtl")
+    facts = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in [*files, *libraries]]
     return hashlib.sha256(json.dumps([VERSION, neutral.name, facts]).encode()).hexdigest()
+
+
+def _looks(content: dict[str, NDArray[Any]]) -> list[PartLook]:
+    rows = zip(texts(content["part_names"]), content["part_looks"].tolist(), strict=True)
+    return [
+        PartLook(
+            name,
+            None if np.isnan(red) else (red, green, blue),
+            opacity=opacity,
+            blends=opacity < 1,
+        )
+        for name, (red, green, blue, opacity) in rows
+    ]
 
 
 def _rig(content: dict[str, NDArray[Any]], folder: Path) -> Rig:
@@ -98,7 +113,7 @@ def _rig(content: dict[str, NDArray[Any]], folder: Path) -> Rig:
         content["corners"],
         content["face_sizes"],
         shapes(),
-        parts=[PartLook(name) for name in texts(content["part_names"])],
+        parts=_looks(content),
         face_parts=content["face_parts"],
         colours=content["colours"] if len(content["colours"]) else None,
         source=folder,

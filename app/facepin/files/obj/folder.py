@@ -14,6 +14,7 @@ from facepin.core.rig import Rig
 from facepin.core.rig_builder import PartLook, build_rig
 from facepin.files.obj.cache import recall, remember
 from facepin.files.obj.colours import read_colours
+from facepin.files.obj.materials import look_like
 from facepin.files.obj.neutral_file import find_neutral, neutral_candidates, obj_files
 from facepin.files.obj.same_mesh import covers, likeness
 from facepin.files.obj.text import ObjFaces, ObjText, check_text, cut_lines, read_faces, read_vertices
@@ -101,14 +102,12 @@ def _read(folder: Path, files: Sequence[Path], neutral: Path, options: ReadOptio
         raise FacepinError([*beside.left_out, *found][0])
 
     name = folder.resolve().name
-    looks = [PartLook(part) for part in faces.part_names] or [PartLook(name)]
+    looks = _looks(rest, faces, name, beside)
     colours = [read_colours(rest.text)]
     vertices, corners, sizes, parts = [rest.vertices], [faces.corners], [faces.sizes], [faces.part_of_face]
     for mesh, more in beside.meshes:
         parts.append(more.part_of_face + len(looks))
-        several = len(more.part_names) > 1
-        looks += [PartLook(f"{mesh.file.stem} {part}") for part in more.part_names if several]
-        looks += [] if several else [PartLook(mesh.file.stem)]
+        looks += _looks(mesh, more, mesh.file.stem, beside)
         corners.append(more.corners + sum(map(len, vertices)))
         sizes.append(more.sizes)
         vertices.append(mesh.vertices)
@@ -125,6 +124,12 @@ def _read(folder: Path, files: Sequence[Path], neutral: Path, options: ReadOptio
         warnings=[*(f"left out: {line}" for line in beside.left_out), *beside.told],
         source=folder,
     )
+
+
+def _looks(mesh: _Mesh, faces: ObjFaces, name: str, beside: _Beside) -> list[PartLook]:
+    """Return the looks of the parts of a mesh; `name` is that of one which is a single part."""
+    looks = [PartLook(part) for part in faces.part_names] or [PartLook(name)]
+    return look_like(looks, faces.part_names or [""], mesh.text, mesh.file.parent, beside.told)
 
 
 def _mesh(file: Path) -> _Mesh:

@@ -19,8 +19,7 @@ def look_like(
 ) -> list[PartLook]:
     """Return the looks of parts with the diffuse colour (`Kd`) and opacity (`d`, `Tr`) of their `materials`.
 
-    `told` grows by a line for each kind of thing that is left out: libraries that are not beside the file,
-    textures.
+    `told` grows by a line for each kind of thing that is left out: libraries outside of the folder, textures.
     """
     library: dict[str, Material] = {}
     for at in text.lines_of(b"mtllib").tolist():
@@ -43,8 +42,8 @@ def _read_library(folder: Path, name: str) -> dict[str, Material]:
     path = folder / name.replace("\\", "/")
     if "\0" in name or not path.resolve().is_relative_to(folder.resolve()):
         raise FacepinError(f"{name[:60]!a} is not in the folder, allowed are files inside it")
-    if not path.is_file():
-        raise FacepinError(f"{name[:60]!a} is not there")
+    if not path.is_file():  # most folders of shapes come without
+        return {}
     materials: dict[str, Material] = {}
     current: Material = {}
     for line in read_bytes(path).decode("utf-8-sig", "replace").splitlines():

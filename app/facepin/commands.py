@@ -67,7 +67,7 @@ def _info(options: Namespace) -> None:
     share = deltas.nnz / max(deltas.shape[0] * deltas.shape[1], 1)
     print(f"{'memory':10} {memory / 1e6:.1f} MB, {share:.0%} of all deltas are not zero")
     print(f"{'height':10} {rig.height:.4g} (along y, in the file's unit)")
-    print(f"{'shapes':10} {rig.shape_count}: {', '.join(rig.shape_names)}")
+    print(f"{'shapes':10} {rig.shape_count}: {', '.join(rig.shown_names)}")
     if len(rig.combinations):
         print(f"{'combined':10} {len(rig.combinations)}: {', '.join(rig.combination_names)}")
     print(f"{'parts':10} {len(rig.parts)}: {', '.join(part.name for part in rig.parts)}")

@@ -96,6 +96,64 @@ def test_geometry_overrules_names_and_stands_in_for_them() -> None:
     assert mirror.paired(0, 0).shapes.tolist() == [0, -1, 3, 2, 4]
 
 
+def lips(seed: int = 0) -> tuple[Rig, np.ndarray]:
+    """Two strips that touch along y = 0 with a vertex of each at every place there, numbered by chance."""
+    x = np.arange(-4.0, 5.0)
+    points = np.array([(a, b, 0.0) for b in (1, 0, 0, -1) for a in x])
+    upper = np.arange(len(points)) < 2 * len(x)
+    quads = [
+        (row + i, row + i + 1, row + i + 10, row + i + 9)
+        for row in (0, 2 * len(x))
+        for i in range(len(x) - 1)
+    ]
+    order = np.random.default_rng(seed).permutation(len(points))
+    back = np.argsort(order)
+    jaw, lift_left, lift_right = np.zeros((3, len(points), 3))
+    jaw[~upper, 1] = -0.5
+    lift_left[:, 1] = upper * np.maximum(points[:, 0], 0) / 8
+    lift_right[:, 1] = upper * np.maximum(-points[:, 0], 0) / 8
+    shapes = [("jawOpen", jaw[order]), ("lift_L", lift_left[order]), ("lift_R", lift_right[order])]
+    rig = build_rig("lips", points[order], back[np.array(quads).ravel()], np.full(len(quads), 4), shapes)
+    return rig, upper[order]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_twin_of_a_lip_is_on_the_same_lip_where_both_touch(seed: int) -> None:
+    rig, upper = lips(seed)
+    mirror = find_mirror(rig)
+    np.testing.assert_array_equal(upper[mirror.vertices], upper)
+    np.testing.assert_array_equal(mirror.vertices[mirror.vertices], np.arange(rig.vertex_count))
+    assert mirror.shapes.tolist() == [0, 2, 1]
+
+
+def test_hair_on_one_side_does_not_move_the_middle(ada: Rig, mirror: Mirror) -> None:
+    height, count = ada.height, ada.vertex_count
+    bun = np.random.default_rng(1).normal(0, 0.1, (count // 3, 3)) * height + (0.6 * height, 0.2 * height, 0)
+    faces = count + np.arange(len(bun) // 3 * 3)
+    deltas = ada.deltas.tocsc()[:, : ada.shape_count].toarray().T.reshape(ada.shape_count, count, 3)
+    rig = build_rig(
+        "bun",
+        np.concatenate([ada.neutral, bun]),
+        np.concatenate([ada.corners, faces]),
+        np.concatenate([ada.face_sizes, np.full(len(faces) // 3, 3)]),
+        ((name, (np.arange(count), delta)) for name, delta in zip(ada.shape_names, deltas, strict=True)),
+    )
+    found = find_mirror(rig)
+    assert found.middle == mirror.middle
+    np.testing.assert_array_equal(found.shapes, mirror.shapes)
+    np.testing.assert_array_equal(found.vertices[:count], mirror.vertices)
+
+
+def test_names_alone_pair_shapes_of_a_mesh_that_is_not_symmetric() -> None:
+    points = np.random.default_rng(2).uniform(-1, 1, (60, 3))
+    names = ["browUpLeft", "browUpRight", "smile_R", "smile_L", "jawOpen"]
+    shapes = [(name, np.random.default_rng(j).normal(0, 0.1, (60, 3))) for j, name in enumerate(names)]
+    mirror = find_mirror(build_rig("clay", points, np.arange(60), np.full(20, 3), shapes))
+    assert mirror.shapes[:4].tolist() == [1, 0, 3, 2]
+    assert not mirror.remarks
+    np.testing.assert_array_equal(mirror.flipped(np.arange(5.0)), [1, 0, 3, 2, 4])
+
+
 def test_a_rig_without_motion() -> None:
     rig = plane(["nothing"], [np.zeros((14, 3))])
     mirror = find_mirror(rig)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from facepin.core.errors import FacepinError
-from facepin.core.names import clean_name, clean_names
+from facepin.core.look.face_view import face_camera
+from facepin.core.names import clean_name, clean_names, listed, shown_name
 from facepin.core.rig_builder import PartLook, build_rig
 from support.sample_files import dense
 
@@ -137,6 +138,14 @@ def test_long_names_are_shortened():
     assert len(clean_name("x" * 100_000)) == 64
 
 
+def test_what_is_shown_of_long_names_has_both_ends():
+    left, right = (f"{'long_' * 30}{side}" for side in ("Left", "Right"))
+    assert len(shown_name(left)) == 64
+    assert shown_name(left) != shown_name(right)
+    assert shown_name(" a  b ") == "a b"
+    assert max(map(len, listed([left, right]).split(", "))) == 64
+
+
 def test_names_become_unique_without_taking_a_name_that_is_there():
     names, remarks = clean_names(["a", "a", "a 2", "", "a", "shape_3"])
     assert names == ["a", "a 3", "a 2", "shape_3_", "a 4", "shape_3"]
@@ -192,3 +201,34 @@ def test_the_height_of_what_is_flat_is_its_extent(size: float) -> None:
     points = size * np.array([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]])
     rig = build_rig("flat", points, [0, 1, 2, 3], [4], [("move", np.ones((4, 3)))])
     assert rig.height == pytest.approx(size)
+
+
+def test_shapes_in_another_unit_or_out_of_sight_are_told() -> None:
+    points = np.concatenate([np.asarray(NEUTRAL, float), [[0, 1000, 0]]])
+    wide = 100 * points
+    wide[-1] = 0
+    lines = np.zeros_like(points)
+    lines[-1] = 1
+    shapes = [("fine", 0.5 * points), ("wide", wide), ("lines", lines), ("still", np.zeros_like(points))]
+    rig = build_rig("face", points, CORNERS, SIZES, shapes)
+    far, unseen, still = (
+        [line for line in rig.warnings if words in line]
+        for words in ("another unit: wide", "in no face, so nothing is seen: lines", "move nothing: still")
+    )
+    assert len(far) == len(unseen) == len(still) == 1
+    assert len(rig.warnings) == 3
+
+
+def test_a_vertex_in_no_face_counts_for_nothing() -> None:
+    alone = build_rig("face", NEUTRAL, CORNERS, SIZES, [("s", 0.5 * np.asarray(NEUTRAL))])
+    points = np.concatenate([np.asarray(NEUTRAL, float), [[300, 1000, 0]]])
+    rig = build_rig("face", points, CORNERS, SIZES, [("s", 0.5 * points)])
+    assert rig.height == alone.height
+    assert rig.drawn.tolist() == [True] * len(NEUTRAL) + [False]
+    ours, theirs = (face_camera(one, (400, 300)) for one in (rig, alone))
+    assert (ours.target, ours.distance) == (theirs.target, theirs.distance)
+
+
+def test_a_face_in_one_point_is_told() -> None:
+    rig = build_rig("dot", np.ones((5, 3)), CORNERS, SIZES, [("s", np.ones((5, 3)))])
+    assert rig.warnings == ("all faces of the neutral are in one point, so nothing of it can be seen",)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from facepin.core.errors import FacepinError
-from facepin.files import open_rig
+from facepin.files import open_rig, write_model
 from support.sample_files import BLINK, POSITIONS, SMILE, TRIANGLES, dense, face_arrays
 
 
@@ -231,3 +231,18 @@ def test_a_neutral_out_of_proportion_is_refused(tmp_path):
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 2e6
+
+
+@pytest.mark.skipif(np.dtype(np.longdouble).itemsize <= 8, reason="long doubles are doubles here")
+@pytest.mark.parametrize("key", ["neutral", "deltas", "weights", "part_mats"])
+def test_long_doubles_are_numbers_like_others(tmp_path, key):
+    more = {"part": np.zeros(4, int), "part_names": np.array(["skin"]), "part_mats": np.full((1, 3), 0.25)}
+    more |= {"weights": np.array([0.5, 0.0])}
+    arrays = face_arrays() | more
+    more[key] = arrays[key].astype(np.longdouble)
+    rig = open_rig(saved(tmp_path / "f.npz", **more))
+    assert rig.parts[0].roughness == 0.25
+    write_model(rig, rig.rest_weights, tmp_path / "f.glb")
+    again = open_rig(tmp_path / "f.glb")
+    assert np.array_equal(dense(again), [SMILE, BLINK])
+    assert again.rest_weights.tolist() == [0.5, 0.0]

@@ -153,7 +153,7 @@ def test_opening_one_of_the_files_opens_its_folder(tmp_path):
         ("v 1 2 3\nv 1e999 0 0\n", ":2:"),
         ("v 1 2 3\nv 1_0 0 0\n", ":2:"),
         ("v 1 2 3\nv 0x10 0 0\n", ":2:"),
-        ("v 1 2 3\nv 1,0 0 0\n", ":2:"),
+        ("v 1 2 3\nv 1,000.5 0 0\n", ":2:"),
         ("v 1 2 3\nv 1 2\nv 1 2 3 4\n", ":2:"),
         ("v \n", ":1:"),
         ("", "no vertices"),

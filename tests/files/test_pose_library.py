@@ -354,3 +354,10 @@ def test_a_thumbnail_is_known_by_what_it_shows(tmp_path: Path) -> None:
         assert read_thumbnail(tmp_path / "broken.png", mark, 8) is None
     Image.fromarray(image).save(tmp_path / "foreign.png")
     assert read_thumbnail(tmp_path / "foreign.png", mark, 8) is None
+
+
+def test_poses_of_numbered_files_stand_as_people_count(tmp_path: Path) -> None:
+    for number in (10, 2, 1, 20, 3):
+        write_pose(tmp_path / f"pose {number}.json", RIG, POSE)
+    assert [path.stem for path in pose_files(tmp_path)] == [f"pose {n}" for n in (1, 2, 3, 10, 20)]
+    assert titles(library(tmp_path)[1]) == [f"pose {n}" for n in (1, 2, 3, 10, 20)]

@@ -10,7 +10,7 @@ from facepin.files.formats import write_model
 from facepin.files.work.pose_file import read_pose, write_pose
 from facepin.panels.commands import Command
 from facepin.panels.file_dialog import Kind
-from facepin.panels.requests import CancelLoading, OpenPath, Request
+from facepin.panels.requests import CancelLoading, OpenPath, Request, UseNeutral
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 
@@ -30,6 +30,8 @@ def act(request: Request, desk: Desk) -> bool:
             desk.opener.open(path)
         case CancelLoading():
             desk.opener.cancel()
+        case UseNeutral(name):
+            desk.opener.use_neutral(name)
         case Command.OPEN_FILE | Command.OPEN_FOLDER:
             kind: Kind = "open file" if request is Command.OPEN_FILE else "open folder"
             desk.ask(kind, request, desk.folder, ALL if kind == "open file" else (), desk.opener.open)

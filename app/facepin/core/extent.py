@@ -19,7 +19,7 @@ AROUND = 0.9
 """How far a head reaches from the middle of what moves, in its heights."""
 
 
-def face_height(neutral: Points, deltas: csc_array) -> float:
+def face_height(neutral: Points, deltas: csc_array, drawn: NDArray[np.bool_]) -> float:
     """Return the height of the head along y, never zero: that of the mesh, unless most of it is no head.
 
     Parameters
@@ -28,10 +28,12 @@ def face_height(neutral: Points, deltas: csc_array) -> float:
         Rest positions.
     deltas : (3n, k) float32
         Moves of the shapes.
+    drawn : (n,) bool
+        Vertices that count: those of triangles.
     """
-    extent = np.ptp(neutral, axis=0) if len(neutral) else np.zeros(3)
+    extent = np.ptp(neutral[drawn], axis=0) if drawn.any() else np.zeros(3)
     whole = float(extent[1] or extent.max() or 1.0)
-    face = neutral[busy_vertices(deltas)]
+    face = neutral[busy_vertices(deltas) & drawn]
     wide, tall, _ = np.ptp(face, axis=0).tolist() if len(face) > 2 else (0.0, 0.0, 0.0)
     if not 0.0 < tall < BODY * whole:
         return whole

@@ -21,6 +21,14 @@ def clean_name(name: str, longest: int = LONGEST) -> str:
     return visible if len(visible) <= longest else visible[: longest - 1].rstrip() + "…"
 
 
+def shown_name(name: str) -> str:
+    """Return what lists and charts show of a name: one line of up to 64 characters, both of its ends kept."""
+    visible = clean_name(name, len(name) or 1)
+    if len(visible) <= LONGEST:
+        return visible
+    return visible[: LONGEST // 2].rstrip() + "…" + visible[1 + LONGEST // 2 - LONGEST :].lstrip()
+
+
 def clean_names(
     names: Sequence[str], *, unnamed: str = "shape", longest: int = LONGEST
 ) -> tuple[list[str], list[str]]:
@@ -67,8 +75,8 @@ def clean_names(
 
 
 def listed(items: Sequence[str]) -> str:
-    """Join with commas; after a few, say how many more there are."""
-    shown = ", ".join(items[:MOST_LISTED])
+    """Join what is shown of names with commas; after a few, say how many more there are."""
+    shown = ", ".join(map(shown_name, items[:MOST_LISTED]))
     hidden = len(items) - MOST_LISTED
     return f"{shown} and {hidden} more" if hidden > 0 else shown
 

@@ -14,6 +14,7 @@ from scipy.sparse import csc_array
 from facepin.core.arrays import Floats, Indices, Points, frozen
 from facepin.core.columns import Columns
 from facepin.core.extent import face_height, head_vertices
+from facepin.core.names import shown_name
 from facepin.core.sentinels import Sentinels, find_sentinels
 from facepin.core.turn import AS_IN_FILE, Turn, after, back, turn_deltas, turn_points
 
@@ -135,17 +136,29 @@ class Rig:
         return tuple(f"{self.shape_names[a]}*{self.shape_names[b]}" for a, b in self.combinations.tolist())
 
     @cached_property
+    def shown_names(self) -> tuple[str, ...]:
+        """k names as charts and tables for people show them: a line of up to 64 characters each."""
+        return tuple(map(shown_name, self.shape_names))
+
+    @cached_property
+    def drawn(self) -> NDArray[np.bool_]:
+        """(n,) which vertices a triangle has; the others are nowhere to be seen and count for no extent."""
+        drawn = np.zeros(self.vertex_count, np.bool_)
+        drawn[self.triangles] = True
+        return drawn
+
+    @cached_property
     def height(self) -> float:
         """Extent of the head along y (the face height that percentages refer to), never zero.
 
-        That of the whole neutral, unless shapes move a small part of it only: the face of a body.
+        That of all that is drawn, unless shapes move a small part of it only: the face of a body.
         """
-        return face_height(self.neutral, self.deltas)
+        return face_height(self.neutral, self.deltas, self.drawn)
 
     @cached_property
     def head(self) -> NDArray[np.bool_]:
-        """(n,) which vertices are the head: all, unless the mesh is a whole body."""
-        return head_vertices(self.neutral, self.deltas, self.height)
+        """(n,) which vertices are the head: all that triangles have, unless the mesh is a whole body."""
+        return head_vertices(self.neutral, self.deltas, self.height) & self.drawn
 
     @cached_property
     def columns(self) -> Columns:

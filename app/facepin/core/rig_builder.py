@@ -13,6 +13,7 @@ from facepin.core.delta_columns import Delta, checked_points, delta_columns, sid
 from facepin.core.errors import FacepinError
 from facepin.core.names import LONGEST_SHAPE, clean_name, clean_names, listed
 from facepin.core.rig import Part, Rig, Texture
+from facepin.core.soundness import motion_remarks
 
 Pair = tuple[int, int]
 
@@ -114,6 +115,7 @@ def build_rig(
         remarks.append(f"equal shapes, which no solver can tell apart: {listed(pairs)}")
     if columns.still:
         remarks.append(f"shapes that move nothing: {listed([shape_names[j] for j in columns.still])}")
+    remarks += motion_remarks(positions, corner_array, columns, shape_names)
     count = len(shape_names)
     combined: list[Pair] = []
     products = delta_columns(

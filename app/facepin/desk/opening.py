@@ -1,7 +1,7 @@
 """What is to be put on the desk, decided before its rig is read: a rig alone, a scene, or unsaved work."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from facepin.core.errors import FacepinError
@@ -9,6 +9,7 @@ from facepin.core.look.camera import Camera
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.desk.scenes import RigSource, resume
+from facepin.files.obj.neutral_file import NeutralUnknown
 from facepin.files.upright import open_upright
 from facepin.files.work.drafts import Leftover
 from facepin.files.work.scene_file import SUFFIX, Scene, places, read_scene
@@ -121,6 +122,8 @@ class Opener:
         self.loading: Loading | None = None
         self.lost: Lost | None = None
         """A scene that waits until its rig is shown."""
+        self.unclear: NeutralUnknown | None = None
+        """A folder that waits until its neutral is named."""
         self._coming: Opening | None = None
         """What the rig is for that is being read."""
 
@@ -178,9 +181,14 @@ class Opener:
 
     def cancel(self) -> None:
         """Give up what is being read, or waited for."""
-        self.lost = None
+        self.lost = self.unclear = None
         if self.loading is not None:
             self.loading.cancel()
+
+    def use_neutral(self, name: str) -> None:
+        """Open the folder that waits for its neutral with the file `name` as that."""
+        if self.unclear is not None and self._coming is not None:
+            self._load(replace(self._coming, source=replace(self._coming.source, neutral=name)))
 
     def take(self) -> tuple[Rig, Opening] | None:
         """Return a rig that has been read, once, and what it is for; None as long as there is none.
@@ -196,6 +204,9 @@ class Opener:
         opening, rig = self._coming, None
         try:
             rig = loading.result()
+        except NeutralUnknown as error:  # asked for, where there is someone to ask
+            self.unclear = error
+            return None
         finally:
             if rig is None and isinstance(opening, SceneOpening):
                 self.lost = opening.lost  # another file may do

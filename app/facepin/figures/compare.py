@@ -161,11 +161,11 @@ def write_charts(folder: Path, comparison: Comparison, made_by: str = "") -> lis
     rig, series = comparison.rig, charts.series_of(comparison)
     note = f"{origin_line(comparison)}{made_by}\n{settings_line(comparison)}"
     figures = {
-        "sliders": charts.slider_panels(rig.shape_names, rig.limits, series, note),
-        "weights": charts.weight_bars(rig.shape_names, rig.limits, series, note),
+        "sliders": charts.slider_panels(rig.shown_names, rig.limits, series, note),
+        "weights": charts.weight_bars(rig.shown_names, rig.limits, series, note),
     }
     if comparison.reference is not None:
-        figures["errors"] = charts.error_charts(rig.shape_names, comparison.reference, series[1:], note)
+        figures["errors"] = charts.error_charts(rig.shown_names, comparison.reference, series[1:], note)
     return [path for name, figure in figures.items() for path in write_chart(folder, name, figure)]
 
 

@@ -40,10 +40,10 @@ def write_session_charts(session: Session, folder: Path) -> None:
     note = (
         f"{rig.name}: {rig.vertex_count:,} vertices, {rig.shape_count} shapes; {pins} pin{'s'[: pins != 1]}"
     )
-    write_chart(folder, "sliders", slider_panels(rig.shape_names, session.control.limits, everything, note))
-    write_chart(folder, "weights", weight_bars(rig.shape_names, session.control.limits, everything, note))
+    write_chart(folder, "sliders", slider_panels(rig.shown_names, session.control.limits, everything, note))
+    write_chart(folder, "weights", weight_bars(rig.shown_names, session.control.limits, everything, note))
     if reference is not None:
-        write_chart(folder, "errors", error_charts(rig.shape_names, reference, series, note))
+        write_chart(folder, "errors", error_charts(rig.shown_names, reference, series, note))
     table = StringIO()
     rows = np.stack([each.weights for each in everything], axis=1).tolist()
     writer = csv.writer(table, lineterminator="\n")

@@ -7,13 +7,14 @@ from facepin.frame.part import part
 from facepin.panels import layout
 from facepin.panels.history import TITLE as HISTORY
 from facepin.panels.history import history_window
+from facepin.panels.neutral import neutral_card
 from facepin.panels.recovery import lost_card
 from facepin.panels.requests import Request
 from facepin.panels.solving.tidy import LABEL, Tidied, tidy_card
 
 
 def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
-    """Draw what floats at the top of the picture, face or no face: history, a missing rig."""
+    """Draw what floats at the top of the picture, face or no face: history, a missing rig or neutral."""
     place = (viewport.x / pixel_ratio, viewport.y / pixel_ratio)
     width = viewport.width / pixel_ratio
     session, view = desk.session, desk.view
@@ -30,6 +31,10 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
     with part(desk, "The scene without its rig"):
         if desk.opener.lost is not None:
             asked.append(lost_card(desk.opener.lost.line, *place, width, view.theme))
+    with part(desk, "The folder without a neutral"):
+        if (unclear := desk.opener.unclear) is not None:
+            name, files, likely = unclear.folder.resolve().name, unclear.names, unclear.likely
+            asked.append(neutral_card(name, files, likely, *place, width))
     return [request for request in asked if request is not None]
 
 

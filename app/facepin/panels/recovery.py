@@ -127,7 +127,7 @@ def lost_card(
     theme : Theme
         Colours.
     """
-    _card("##lost", left, top, width, 36 * imgui.get_font_size())
+    begin_card("##lost", left, top, width, 36 * imgui.get_font_size())
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
     imgui.text_wrapped(line)
     imgui.pop_style_color()
@@ -144,7 +144,7 @@ def lost_card(
     return asked
 
 
-def _card(name: str, left: float, top: float, width: float, widest: float) -> None:
+def begin_card(name: str, left: float, top: float, width: float, widest: float) -> None:
     """Begin a window at the top of the picture, as wide as it may be."""
     gap = 0.6 * imgui.get_font_size()
     imgui.set_next_window_pos(

@@ -179,6 +179,13 @@ class CancelLoading:
 
 
 @dataclass(frozen=True)
+class UseNeutral:
+    """Open the folder that waits for it with this file as the neutral."""
+
+    name: str
+
+
+@dataclass(frozen=True)
 class CancelJob:
     """Give up what is being made beside the work."""
 
@@ -208,6 +215,7 @@ Request = (
     | SetControl
     | CancelEdit
     | CancelLoading
+    | UseNeutral
     | CancelJob
     | LibraryRequest
 )

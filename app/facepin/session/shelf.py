@@ -13,6 +13,7 @@ import numpy as np
 
 from facepin.core.arrays import Floats
 from facepin.core.saved_pose import SavedPose
+from facepin.core.sorting import SortKey, natural_key
 
 Shelf = Mapping[str, SavedPose | None]
 """Poses by key as they are since they were changed; None for one that was removed."""
@@ -83,8 +84,8 @@ def differences(first: Floats, second: Floats) -> tuple[int, ...]:
     return tuple(order[gaps[order] > LISTED].tolist())
 
 
-def _place(pose: SavedPose) -> tuple[bool, float, str, str]:
-    return (pose.order is None, pose.order or 0.0, pose.title.lower(), pose.key)
+def _place(pose: SavedPose) -> tuple[bool, float, SortKey, str]:
+    return (pose.order is None, pose.order or 0.0, natural_key(pose.title), pose.key)
 
 
 def _between(left: float, right: float) -> float:

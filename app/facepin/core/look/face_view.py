@@ -31,7 +31,7 @@ def expressive(rig: Rig) -> NDArray[np.bool_]:
     starts, rows, values = rig.deltas.indptr, rig.deltas.indices, rig.deltas.data
     for first, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True):
         vertices, lengths = _moves(rows[first:end] // 3, values[first:end])
-        stirred = vertices[lengths > STIRRED * rig.height]
+        stirred = vertices[(lengths > STIRRED * rig.height) & rig.drawn[vertices]]
         anywhere[stirred] = True
         if np.count_nonzero(lengths > REST * rig.height) <= rig.vertex_count / 2:
             local[stirred] = True

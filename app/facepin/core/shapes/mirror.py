@@ -4,10 +4,12 @@ import re
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from facepin.core.arrays import Floats, Indices, Points, frozen
+from facepin.core.arrays import Floats, Indices, frozen
 from facepin.core.names import listed
 from facepin.core.rig import Rig
+from facepin.core.shapes.symmetry import across, middle_of, twin_vertices
 
 NEAR = 0.01
 """How far from its mirrored place a twin vertex may be, as a share of the face height."""
@@ -17,6 +19,8 @@ TELLING = 0.9
 """The same where nothing but the geometry says so."""
 SAMPLES = 2000
 """Vertices that are compared; more do not tell more."""
+HEARD = 0.5
+"""Least share of a shape's motion at vertices with a twin for geometry to have a say in who its twin is."""
 
 _OTHER = {"left": "right", "right": "left", "l": "r", "r": "l"}
 _SIDE = re.compile(
@@ -65,8 +69,7 @@ class Mirror:
 
     def across(self, points: Floats) -> Floats:
         """Mirror points (..., 3)."""
-        points = np.asarray(points, np.float64)
-        return points * (-1.0, 1.0, 1.0) + (2 * self.middle, 0.0, 0.0)
+        return across(np.asarray(points, np.float64), self.middle)
 
     def flipped(self, weights: Floats) -> Floats:
         """Return weights (k,) float64 of the mirrored pose; shapes without a twin keep theirs."""
@@ -81,12 +84,12 @@ def find_mirror(rig: Rig) -> Mirror:
 
     Names pair shapes that say left and right (`_L`/`_R`, `Left`/`Right`, `l_`, `.L`, …).  A shape whose name
     says no side is its own twin if it moves both sides alike; shapes with names that say nothing are paired
-    where one clearly is the other's mirror image.
+    where one clearly is the other's mirror image.  On a mesh that is not symmetric names alone decide.
     """
     middle = middle_of(rig)
-    vertices = _twin_vertices(rig.neutral, middle, NEAR * rig.height)
+    vertices = twin_vertices(rig, middle, NEAR * rig.height)
     likeness, balance = _likeness(rig, vertices, middle)
-    shapes, remarks = _twin_shapes(rig.shape_names, likeness)
+    shapes, remarks = _twin_shapes(rig.shape_names, likeness, _heard(rig, vertices))
     return Mirror(
         frozen(vertices, np.int32),
         frozen(shapes, np.int32),
@@ -94,14 +97,6 @@ def find_mirror(rig: Rig) -> Mirror:
         middle,
         tuple(remarks),
     )
-
-
-def middle_of(rig: Rig) -> float:
-    """Return x of the plane between left and right."""
-    middle = float(np.median(rig.neutral[:, 0])) if rig.vertex_count else 0.0
-    extent = np.ptp(rig.neutral[:, 0]) if rig.vertex_count else 0.0
-    # Nearly all rigs stand in the middle of the world.
-    return 0.0 if abs(middle) < 0.02 * extent else middle
 
 
 def swapped(name: str) -> str:
@@ -115,19 +110,6 @@ def swapped(name: str) -> str:
         return word.capitalize() if side[0].isupper() else word
 
     return _SIDE.sub(other, name)
-
-
-def _twin_vertices(points: Points, middle: float, near: float) -> Indices:
-    """Return for each point the one at its mirrored place, -1 where there is none that points back."""
-    from scipy.spatial import cKDTree
-
-    across = points.astype(np.float64) * (-1.0, 1.0, 1.0) + (2 * middle, 0.0, 0.0)
-    distances, nearest = cKDTree(points).query(across, distance_upper_bound=near)
-    twins = np.where(np.isfinite(distances), nearest, -1).astype(np.int32)
-    # Where vertices coincide (seams, lips) the way back may end on another one at the same place.
-    back = np.where(twins >= 0, twins[twins], -1)
-    found: Indices = np.where((back >= 0) & (points[back] == points).all(axis=1), twins, -1)
-    return found
 
 
 def _likeness(rig: Rig, twins: Indices, middle: float) -> tuple[Floats, Floats]:
@@ -151,8 +133,22 @@ def _likeness(rig: Rig, twins: Indices, middle: float) -> tuple[Floats, Floats]:
     return cosines, balance
 
 
-def _twin_shapes(names: tuple[str, ...], likeness: Floats) -> tuple[Indices, list[str]]:
-    """Return the twin of each shape or -1, and what names and geometry disagree on."""
+def _heard(rig: Rig, twins: Indices) -> NDArray[np.bool_]:
+    """Return for which shapes (k,) geometry has a say: those that move mostly vertices with a twin."""
+    columns = rig.deltas[:, : rig.shape_count].astype(np.float64).power(2)
+    total = np.asarray(columns.sum(axis=0)).ravel()
+    known = np.repeat(twins >= 0, 3).astype(np.float64) @ columns
+    heard: NDArray[np.bool_] = known >= HEARD * total
+    return heard
+
+
+def _twin_shapes(
+    names: tuple[str, ...], likeness: Floats, heard: NDArray[np.bool_]
+) -> tuple[Indices, list[str]]:
+    """Return the twin of each shape or -1, and what names and geometry disagree on.
+
+    Names alone decide on pairs for which geometry is not `heard` (k,).
+    """
     places = {name: j for j, name in enumerate(names)}
     twins = np.full(len(names), -1, np.int32)
     contradicted: list[str] = []
@@ -161,7 +157,7 @@ def _twin_shapes(names: tuple[str, ...], likeness: Floats) -> tuple[Indices, lis
         if other == j:
             twins[j] = j if likeness[j, j] >= ALIKE else -1
         elif other > j:
-            if likeness[j, other] >= ALIKE:
+            if likeness[j, other] >= ALIKE or not (heard[j] and heard[other]):
                 twins[[j, other]] = other, j
             else:
                 contradicted.append(f"{name} and {names[other]}")

@@ -17,9 +17,9 @@ from facepin.core.arrays import Floats
 from facepin.core.mesh.topology import connected
 from facepin.core.pose import Pin
 from facepin.core.rig import Rig
-from facepin.core.shapes.mirror import middle_of
 from facepin.core.shapes.motion import shape_moves
 from facepin.core.shapes.regions import SIDES, named_region, words_of
+from facepin.core.shapes.symmetry import middle_of
 
 Flags = NDArray[np.bool_]
 

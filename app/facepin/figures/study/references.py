@@ -11,6 +11,7 @@ from facepin.core.errors import FacepinError
 from facepin.core.names import clean_name, listed
 from facepin.core.rig import Rig
 from facepin.core.shapes import measures
+from facepin.core.sorting import natural_key
 from facepin.files.work.pose_file import READERS, read_weights
 from facepin.files.work.pose_table import read_pose_table
 from facepin.files.work.shape_spelling import match_shapes
@@ -45,7 +46,8 @@ def read_references(path: Path, rig: Rig, most: int) -> References:
         raise FacepinError(f"{path}: no such file or folder")
     name = clean_name(path.resolve().name) or str(path)
     if path.is_dir():
-        files = sorted(file for file in path.iterdir() if file.suffix.lower() in READERS)
+        files = [file for file in path.iterdir() if file.suffix.lower() in READERS]
+        files.sort(key=lambda file: natural_key(file.name))
         if not files:
             raise FacepinError(f"{path}: there are no poses in this folder ({', '.join(READERS)})")
         poses, remarks = _of_files(files, rig, name)

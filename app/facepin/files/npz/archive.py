@@ -105,7 +105,7 @@ class Archive:
         with sound(f"{self.name}: {member.name}"), self._zip.open(member.info) as file:
             content = file.read()
         flat = np.frombuffer(content, member.dtype, offset=member.header_size)
-        return flat.reshape(member.shape, order="F" if member.fortran else "C")
+        return _portable(flat.reshape(member.shape, order="F" if member.fortran else "C"))
 
     def slices(self, member: Member) -> Iterator[NDArray[Any]]:
         """Inflate an array one leading index at a time, so that memory does not grow with its first axis."""
@@ -123,7 +123,12 @@ class Archive:
                     content = file.read(size)
                 if len(content) < size:
                     raise FacepinError(f"{where} ends early")
-                yield np.frombuffer(content, member.dtype).reshape(member.shape[1:])
+                yield _portable(np.frombuffer(content, member.dtype).reshape(member.shape[1:]))
+
+
+def _portable(array: NDArray[Any]) -> NDArray[Any]:
+    """Return long doubles as doubles: JSON, OpenGL and most of numpy's neighbours know no others."""
+    return array.astype(np.float64) if array.dtype.kind == "f" and array.dtype.itemsize > 8 else array
 
 
 def texts(array: NDArray[Any]) -> list[str]:
@@ -151,6 +156,9 @@ def _header(file: IO[bytes], where: str) -> tuple[np.dtype[Any], tuple[int, ...]
         raise FacepinError(
             f"{where}: holds {described!a}, allowed are plain numbers and texts; nothing is unpickled"
         )
-    dtype = np.dtype(described)
+    try:
+        dtype = np.dtype(described)
+    except TypeError as error:  # long doubles are not the same everywhere
+        raise FacepinError(f"{where}: this machine has no numbers of type {described}") from error
     shape = tuple(int(size) for size in match["shape"].decode("ascii").split(",") if size.strip())
     return dtype, shape, match["fortran"] == b"True", 8 + width + length

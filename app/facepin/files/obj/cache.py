@@ -19,11 +19,11 @@ from facepin.files.npz.archive import open_archive, texts
 from facepin.files.options import Progress
 from facepin.files.safely.atomic import atomic_file
 
-VERSION = 1
+VERSION = 2
 MOST_ENTRIES = 16
 KEYS = (
     *("signature", "neutral", "corners", "face_sizes", "face_parts", "part_names"),
-    *("values", "rows", "starts", "names", "warnings"),
+    *("values", "rows", "starts", "names", "warnings", "colours", "part_looks"),
 )
 
 
@@ -63,8 +63,10 @@ def remember(cache: Path, folder: Path, files: list[Path], neutral: Path, rig: R
                 values=rig.deltas.data,
                 rows=rig.deltas.indices,
                 starts=rig.deltas.indptr,
-                names=np.array(rig.shape_names),
+                names=np.array(rig.file_names),
                 warnings=np.array(rig.warnings, dtype=str),
+                part_looks=np.array([[*(part.colour or [np.nan] * 3), part.opacity] for part in rig.parts]),
+                colours=np.zeros((0, 3), np.float32) if rig.colours is None else rig.colours,
             )
         entries = sorted(cache.glob("*.npz"), key=lambda path: path.stat().st_mtime, reverse=True)
         for old in entries[MOST_ENTRIES:]:
@@ -77,8 +79,22 @@ def _entry(cache: Path, folder: Path) -> Path:
 
 def _signature(files: list[Path], neutral: Path) -> str:
     """Return what must be unchanged for an entry to hold."""
-    facts = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in files]
+    libraries = sorted(path for path in neutral.parent.iterdir() if path.suffix.lower() == ".mtl")
+    facts = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in [*files, *libraries]]
     return hashlib.sha256(json.dumps([VERSION, neutral.name, facts]).encode()).hexdigest()
+
+
+def _looks(content: dict[str, NDArray[Any]]) -> list[PartLook]:
+    rows = zip(texts(content["part_names"]), content["part_looks"].tolist(), strict=True)
+    return [
+        PartLook(
+            name,
+            None if np.isnan(red) else (red, green, blue),
+            opacity=opacity,
+            blends=opacity < 1,
+        )
+        for name, (red, green, blue, opacity) in rows
+    ]
 
 
 def _rig(content: dict[str, NDArray[Any]], folder: Path) -> Rig:
@@ -97,8 +113,9 @@ def _rig(content: dict[str, NDArray[Any]], folder: Path) -> Rig:
         content["corners"],
         content["face_sizes"],
         shapes(),
-        parts=[PartLook(name) for name in texts(content["part_names"])],
+        parts=_looks(content),
         face_parts=content["face_parts"],
+        colours=content["colours"] if len(content["colours"]) else None,
         source=folder,
     )
     return replace(rig, warnings=tuple(texts(content["warnings"])))

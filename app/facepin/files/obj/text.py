@@ -49,6 +49,18 @@ class ObjText:
         return b"".join(self.content[self.starts[lines[a]] : self.starts[lines[b - 1] + 1]] for a, b in runs)
 
 
+def check_text(content: bytes, name: str) -> None:
+    """Refuse what is no text.
+
+    Raises
+    ------
+    FacepinError
+        For text that is not one byte per character (UTF-16), or no text at all.
+    """
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in content:
+        raise FacepinError(f"{name}: UTF-16 or binary content, allowed: OBJ as plain text (ASCII or UTF-8)")
+
+
 def cut_lines(content: bytes, name: str) -> ObjText:
     """Cut the content of a file into lines, continuations joined, indentation and a byte order mark removed.
 
@@ -57,8 +69,7 @@ def cut_lines(content: bytes, name: str) -> ObjText:
     FacepinError
         For text that is not one byte per character (UTF-16, or no text at all).
     """
-    if content[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in content:
-        raise FacepinError(f"{name}: UTF-16 or binary content, allowed: OBJ as plain text (ASCII or UTF-8)")
+    check_text(content, name)
     content = content.removeprefix(b"\xef\xbb\xbf")
     if b"\r" in content and b"\n" not in content:
         content = content.replace(b"\r", b"\n")
@@ -75,6 +86,8 @@ def cut_lines(content: bytes, name: str) -> ObjText:
 def read_vertices(text: ObjText) -> Floats:
     """Return the `v` lines, (n, 3) float64; vertex colours and other further numbers are passed over.
 
+    Decimal commas are read as points, where all lines have them or whole numbers.
+
     Raises
     ------
     FacepinError
@@ -85,12 +98,22 @@ def read_vertices(text: ObjText) -> Floats:
         raise FacepinError(f"{text.name}: no vertices (lines that begin with 'v')")
     block = text.joined(lines).decode("ascii", "replace")
     try:
-        vertices: Floats = np.loadtxt(StringIO(block), np.float64, comments=None, usecols=(1, 2, 3), ndmin=2)
+        vertices = _numbers(block)
     except ValueError as error:
-        raise _first_wrong_vertex(text, lines) from error
+        if "," not in block:
+            raise _first_wrong_vertex(text, lines) from error
+        try:  # 1,5 is one and a half where that is how people write it
+            vertices = _numbers(block.replace(",", "."))
+        except ValueError:
+            raise _first_wrong_vertex(text, lines) from error
     if len(vertices) != len(lines) or not np.isfinite(vertices).all():
         raise _first_wrong_vertex(text, lines)
     return vertices
+
+
+def _numbers(block: str) -> Floats:
+    """Return the first three numbers of each line, (n, 3)."""
+    return np.loadtxt(StringIO(block), np.float64, comments=None, usecols=(1, 2, 3), ndmin=2)
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,6 +20,7 @@ from facepin.files.safely.checked_json import JsonObject, parse_json
 from facepin.files.safely.reading import read_bytes
 from facepin.files.work.pins_file import parse_pins, pins_as_json
 from facepin.files.work.shape_spelling import match_shapes
+from facepin.files.work.spreadsheet import read_number, read_rows
 
 FORMAT, VERSION = "facepin-pose", 1
 
@@ -165,14 +166,9 @@ def _content(document: JsonObject, rig: Rig) -> Content:
 
 
 def _read_csv(path: Path, rig: Rig) -> Content:
-    try:
-        text = read_bytes(path).decode("utf-8-sig")
-        rows = list(csv.reader(StringIO(text, newline="")))
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise FacepinError(f"{path.name}: not a table in UTF-8: {error}") from error
     weights: dict[str, float] = {}
-    for number, row in enumerate(rows, 1):
-        if not row or (number == 1 and row[-1].strip().lower() == "weight"):
+    for at, (number, row) in enumerate(read_rows(path)):
+        if at == 0 and row[-1].strip().lower() == "weight":
             continue
         weight = _number(row[1]) if len(row) == 2 else None
         if weight is None:
@@ -192,11 +188,8 @@ def _read_csv(path: Path, rig: Rig) -> Content:
 
 
 def _number(text: str) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if abs(value) <= LARGEST_WEIGHT else None
+    value = read_number(text)
+    return value if value is not None and abs(value) <= LARGEST_WEIGHT else None
 
 
 READERS: dict[str, Callable[[Path, Rig], Content]] = {".json": _read_json, ".csv": _read_csv}

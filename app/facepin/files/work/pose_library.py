@@ -18,6 +18,7 @@ from facepin.core.names import clean_name
 from facepin.core.pose import Pose
 from facepin.core.rig import Rig
 from facepin.core.saved_pose import SavedPose, clean_tags
+from facepin.core.sorting import natural_key
 from facepin.files.safely.atomic import atomic_write
 from facepin.files.safely.checked_json import parse_json
 from facepin.files.safely.reading import read_bytes
@@ -75,7 +76,8 @@ def pose_files(folder: Path) -> list[Path]:
     try:
         if not folder.is_dir():
             return []
-        return sorted(path for path in folder.iterdir() if path.suffix == ".json" and path.name[0] != ".")
+        paths = [path for path in folder.iterdir() if path.suffix == ".json" and path.name[0] != "."]
+        return sorted(paths, key=lambda path: natural_key(path.stem))
     except OSError as error:
         raise FacepinError(f"{folder}: cannot be read: {error.strerror or error}") from error
 

@@ -1,7 +1,5 @@
 """Many poses in one .csv: shapes' names in the first row, then a row of weights for each pose."""
 
-import csv
-from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +9,8 @@ from facepin.core.errors import FacepinError
 from facepin.core.names import clean_name
 from facepin.core.rig import Rig
 from facepin.core.rig_builder import LARGEST_WEIGHT
-from facepin.files.safely.reading import read_bytes
 from facepin.files.work.shape_spelling import match_shapes
+from facepin.files.work.spreadsheet import read_number, read_rows
 
 
 def read_pose_table(path: Path, rig: Rig) -> tuple[Floats, list[str], list[int]]:
@@ -33,11 +31,7 @@ def read_pose_table(path: Path, rig: Rig) -> tuple[Floats, list[str], list[int]]
     FacepinError
         If the file cannot be read, is no such table, or names no shape of this rig.
     """
-    try:
-        text = read_bytes(path).decode("utf-8-sig")
-        lines = [line for line in enumerate(csv.reader(StringIO(text, newline="")), 1) if any(line[1])]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise FacepinError(f"{path.name}: not a table in UTF-8: {error}") from error
+    lines = read_rows(path)
     names = [name.strip() for name in lines[0][1]] if lines else []
     for name in names:
         if name and names.count(name) > 1:
@@ -63,10 +57,7 @@ def read_pose_table(path: Path, rig: Rig) -> tuple[Floats, list[str], list[int]]
 
 
 def _weight(cell: str, place: str) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
-        value = np.nan
-    if not abs(value) <= LARGEST_WEIGHT:
+    value = read_number(cell)
+    if value is None or not abs(value) <= LARGEST_WEIGHT:
         raise FacepinError(f"{place} is {cell[:60]!a}, allowed: a number up to {LARGEST_WEIGHT:.0e}")
     return value

@@ -37,11 +37,11 @@ def vertex_card(
     title = f"{place[:1].upper()}{place[1:]}"
     imgui.text_disabled(f"{title}: {len(movers)} shape{'s' if len(movers) > 1 else ''}, % of face height")
     draw, strongest = imgui.get_window_draw_list(), movers[0][1]
-    bars = max(imgui.calc_text_size(rig.shape_names[j]).x for j, _ in movers[:MOST_LISTED]) + 12 * scale
+    bars = max(imgui.calc_text_size(rig.shown_names[j]).x for j, _ in movers[:MOST_LISTED]) + 12 * scale
     for j, length in movers[:MOST_LISTED]:
         held = bool(control.held[j])
         write = imgui.text_disabled if held else imgui.text
-        write(rig.shape_names[j])
+        write(rig.shown_names[j])
         imgui.same_line(imgui.get_style().window_padding.x + bars)
         at, height = imgui.get_cursor_screen_pos(), imgui.get_text_line_height()
         draw.add_rect_filled(

@@ -48,9 +48,15 @@ class Elider:
         return fitted
 
     def _shortened(self, text: str, room: float) -> str:
-        for kept in range(len(text) - 1, 1, -1):
-            front = (kept + 1) // 2
-            short = f"{text[:front]}…{text[len(text) - (kept - front) :]}"
-            if imgui.calc_text_size(short).x <= room:
-                return short
-        return "…"
+        low, high = 1, len(text) - 1
+        while low < high:  # how many letters may be kept: more are wider
+            kept = (low + high + 1) // 2
+            fits = imgui.calc_text_size(_middle_out(text, kept)).x <= room
+            low, high = (kept, high) if fits else (low, kept - 1)
+        return _middle_out(text, low) if low > 1 else "…"
+
+
+def _middle_out(text: str, kept: int) -> str:
+    """Return the first and the last of the letters, `kept` together, with "…" between."""
+    front = (kept + 1) // 2
+    return f"{text[:front]}…{text[len(text) - (kept - front) :]}"

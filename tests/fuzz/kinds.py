@@ -143,6 +143,8 @@ def _use(rig: Rig) -> None:
         path = Path(folder) / "again.glb"
         write_model(rig, rig.rest_weights, path)
         again = open_rig(path, cache=False)
+        if again.vertex_count != rig.vertex_count:
+            raise AssertionError(f"opened {rig.vertex_count} vertices, exported {again.vertex_count}")
         if again.shape_names != rig.shape_names:
             raise AssertionError(f"opened {rig.shape_names!r}, exported {again.shape_names!r}")
 

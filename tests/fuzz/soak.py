@@ -2,8 +2,8 @@
 
     PYTHONPATH=tests python -m fuzz.soak --hours 4
 
-Drags, sliders, commands, undo and redo, panes, faces and sizes of the window come in any order.  A bug ends it
-with a traceback; so does growth of memory, of objects on the graphics card, of undo.
+Drags, sliders, commands, undo and redo, panes, faces and sizes of the window come in any order.  A bug ends
+it with a traceback; so does growth of memory, of objects on the graphics card, of undo.
 """
 
 import argparse

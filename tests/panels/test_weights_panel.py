@@ -348,8 +348,8 @@ def test_the_gain_scales_all_that_is_not_locked_as_one_step(app: App) -> None:
 
 def test_a_name_shows_on_the_face_what_its_shape_moves_after_a_rest(app: App) -> None:
     at = place(app, "browInnerUp")
-    app.step(PointerMoved(*at), frames=3)
     before = app.screenshot()[:, :380].copy()
+    app.step(PointerMoved(*at), frames=3)
     sleep(0.2)
     app.step(Stirred(), frames=3)
     assert app.desk.view.panes[0].shape == app.session.rig.shape_names.index("browInnerUp")

@@ -18,9 +18,9 @@ from support.driver import App, running
 
 
 def work(rig: Path, settings: Path, log: Path, scene: Path) -> None:
-    """Make one gesture after another; save the scene after every third one."""
+    """Make one gesture after another; save the scene after every third, a picture before it."""
     journal = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
-    with running(rig, size=(320, 240), settings_folder=settings) as app:
+    with running(rig, size=(320, 240), settings_folder=settings, pictures=log.parent) as app:
         number = 0
         while True:
             number += 1
@@ -32,6 +32,9 @@ def work(rig: Path, settings: Path, log: Path, scene: Path) -> None:
             assert app.desk.keeper._saver.flush()
             if number % 3 == 0:
                 save(app, scene)
+            elif number % 3 == 2:
+                app.ask(Command.SCREENSHOT)
+                app.step(PointerMoved(5, 5))
 
 
 def gesture(app: App, weight: float, *, final: bool) -> None:

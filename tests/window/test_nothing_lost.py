@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from imgui_bundle import imgui
+from PIL import Image
 
 from facepin.__main__ import main
 from facepin.core.errors import FacepinError
@@ -131,7 +132,7 @@ def test_killed_at_random_moments_at_most_the_gesture_in_hand_is_lost(
         workshop.stdin.write(f"{rig} {settings} {log} {scene}\n")
         workshop.stdin.flush()
         worker = int(workshop.stdout.readline())
-        until = time.monotonic() + 30
+        until = time.monotonic() + 120
         while not (log.exists() and log.read_text()):
             assert time.monotonic() < until, "the worker did not begin"
             time.sleep(0.002)
@@ -143,6 +144,8 @@ def test_killed_at_random_moments_at_most_the_gesture_in_hand_is_lost(
         left, remarks = leftovers(settings / "autosave")
         assert not remarks
         assert len(left) <= 1
+        for picture in log.parent.glob("[!.]*.png"):
+            Image.open(picture).load()  # whole, or not there
         saved = step_of(read_scene(scene)) if scene.exists() else 0.0  # whole, or not there
         there = step_of(left[0].scene) if left else saved
         assert there in (begun - 1, begun)

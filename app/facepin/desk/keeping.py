@@ -16,8 +16,8 @@ class Keeper:
     """Keeps the work of one window.
 
     After each undo step that leaves something unsaved, a draft is written in the background; when everything
-    is saved, or the face is at rest with nothing on it, the draft is taken away.  A draft that is there when the window ends, however it ends, is
-    offered by the next one.
+    is saved, or the face is at rest with nothing on it, the draft is taken away.  A draft that is there when
+    the window ends, however it ends, is offered by the next one.
     """
 
     def __init__(self, folder: Path | None) -> None:

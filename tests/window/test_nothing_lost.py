@@ -238,6 +238,41 @@ def test_quitting_asks_nothing_and_the_next_start_offers_what_was_left(rig: Path
         assert not app.desk.keeper.left
 
 
+def test_what_another_window_saved_meanwhile_is_not_replaced_unasked(rig: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "one.facepin"
+    with small(rig, settings_folder=tmp_path / "mine") as app:
+        answer(app, Command.SAVE_AS, scene)
+        set_first(app, 0.25)
+        app.ask(Command.SAVE)
+        assert step_of(read_scene(scene)) == 0.25 and app.desk.dialog is None
+        other = scene.read_bytes().replace(b"0.25", b"0.75")
+        scene.write_bytes(other)  # as another window would
+        set_first(app, 0.5)
+        app.ask(Command.SAVE)
+        assert app.desk.is_error and "elsewhere" in app.desk.message
+        assert scene.read_bytes() == other
+        assert app.desk.dialog is not None
+        app.desk.dialog._finish(tmp_path / "two.facepin")
+        app.step(frames=2)
+        assert step_of(read_scene(tmp_path / "two.facepin")) == 0.5
+        assert app.desk.keeper.file == tmp_path / "two.facepin"
+        answer(app, Command.OPEN_FILE, scene)
+        opened(app)
+        set_first(app, 0.125)
+    scene.write_bytes(other.replace(b"0.75", b"0.875"))
+    with small(rig, settings_folder=tmp_path / "mine") as app:  # work that was left knows it too
+        app.ask(RestoreWork(app.desk.keeper.left[0].draft.path))
+        opened(app)
+        app.ask(Command.SAVE)
+        assert app.desk.is_error and app.desk.dialog is not None
+        app.desk.dialog._finish(scene)  # knowingly
+        app.step(frames=2)
+        assert step_of(read_scene(scene)) == 0.125
+        set_first(app, 0.375)
+        app.ask(Command.SAVE)
+        assert step_of(read_scene(scene)) == 0.375
+
+
 def test_a_face_that_was_not_touched_is_not_offered(rig: Path, tmp_path: Path) -> None:
     with small(rig, settings_folder=tmp_path) as app:
         app.session.choose_solver(0, choose("sparse"))

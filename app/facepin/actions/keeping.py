@@ -5,7 +5,9 @@ from pathlib import Path
 from facepin.actions.files import FACES
 from facepin.core.errors import FacepinError
 from facepin.desk.desk import Desk
+from facepin.desk.keeping import ChangedElsewhere
 from facepin.desk.opening import Lost
+from facepin.desk.papers import free_name
 from facepin.files.work.drafts import Leftover
 from facepin.files.work.scene_file import SUFFIX
 from facepin.panels.commands import Command
@@ -29,7 +31,7 @@ def act(request: Request, desk: Desk) -> bool:
         case Command.LOCATE_RIG:
             desk.say("No scene waits for its rig")
         case Command.SAVE if desk.session is not None and desk.keeper.file is not None:
-            _save(desk, desk.keeper.file)
+            _save_again(desk, desk.keeper.file)
         case Command.SAVE | Command.SAVE_AS if desk.session is not None:
             suggested = desk.keeper.file or desk.folder / f"{desk.session.rig.name}{SUFFIX}"
             desk.ask("save file", request, suggested, SCENES, lambda path: _save_as(desk, path))
@@ -55,6 +57,16 @@ def act(request: Request, desk: Desk) -> bool:
     return True
 
 
+def _save_again(desk: Desk, path: Path) -> None:
+    """Save to the scene's own file; ask for another name where somebody else has saved there meanwhile."""
+    try:
+        _save(desk, path, replace=False)
+    except ChangedElsewhere as error:
+        mine = free_name(path.parent, path.stem, SUFFIX)
+        desk.ask("save file", Command.SAVE_AS, mine, SCENES, lambda answer: _save_as(desk, answer))
+        desk.say(f"{error}: choose another name, or {path.name} to replace what is there", error=True)
+
+
 def _save_as(desk: Desk, path: Path) -> None:
     """Save under a name that the user gave, which may lack its suffix."""
     if not path.suffix:
@@ -64,12 +76,12 @@ def _save_as(desk: Desk, path: Path) -> None:
     _save(desk, path)
 
 
-def _save(desk: Desk, path: Path) -> None:
+def _save(desk: Desk, path: Path, *, replace: bool = True) -> None:
     if desk.session is None:
         return
     path = path.absolute()
     desk.session.settle()  # a slider may be on its way by wheel or key
-    desk.keeper.save(desk.session, path, desk.snapshot())
+    desk.keeper.save(desk.session, path, desk.snapshot(), replace=replace)
     desk.opened = path
     desk.say(f"Saved {path}")
 

@@ -264,6 +264,7 @@ class Desk:
             self.keeper.file,
             opening.scene.sections if isinstance(opening, SceneOpening) else {},
             self.view.reference_shown,
+            self.keeper.digest,
         )
 
     def keep(self) -> None:
@@ -310,10 +311,11 @@ class Desk:
         self.library = library_of(begun.session, self._settings, own=not opening.source.asset)
         self.portraits = Portraits(self._ctx, stage)
         file = leftover = None
-        moved = False
+        moved, digest = False, ""
         if isinstance(opening, SceneOpening):
             file, leftover, moved = opening.file, opening.leftover, opening.lost is not None or opening.turned
-        self.keeper.begin(begun.session, file, leftover, saved=not moved)
+            digest = opening.scene.digest
+        self.keeper.begin(begun.session, file, leftover, saved=not moved, digest=digest)
         self._look_at(begun, stage)
         if leftover is None and (file or not opening.source.asset):
             self.opened = file or opening.source.path

@@ -6,10 +6,14 @@ from pathlib import Path
 from facepin.core.errors import FacepinError
 from facepin.desk.scenes import Snapshot, scene_of
 from facepin.files.work.drafts import Draft, Leftover, leftovers
-from facepin.files.work.scene_file import scene_bytes, write_scene
+from facepin.files.work.scene_file import digest_of, scene_bytes, write_scene
 from facepin.session.autosave import Autosave
 from facepin.session.session import Session
 from facepin.session.work import Work
+
+
+class ChangedElsewhere(FacepinError):
+    """The scene file is no longer what the work here began with, or what was saved here."""
 
 
 class Keeper:
@@ -30,6 +34,8 @@ class Keeper:
         """
         self.file: Path | None = None
         """The scene file of the open work, if it has one."""
+        self.digest = ""
+        """Of that file as it was opened or saved here; empty where that is unknown."""
         self.left: list[Leftover] = []
         """Unsaved work of windows that are gone, newest first."""
         self.remarks: list[str] = []
@@ -58,7 +64,13 @@ class Keeper:
         self._saved = session.committed
 
     def begin(
-        self, session: Session, file: Path | None, leftover: Leftover | None = None, *, saved: bool = True
+        self,
+        session: Session,
+        file: Path | None,
+        leftover: Leftover | None = None,
+        *,
+        saved: bool = True,
+        digest: str = "",
     ) -> None:
         """Keep the work of another session from now on; call `let_go` for the one before.
 
@@ -72,8 +84,10 @@ class Keeper:
             What it begins with, if that was unsaved work: its draft goes on.
         saved : bool
             Whether it begins with what is in its files.
+        digest : str
+            Of its scene file, as it was read.
         """
-        self.file = file
+        self.file, self.digest = file, digest
         self._saved = self._seen = session.committed
         if leftover is not None:
             self._forget(leftover)
@@ -89,15 +103,30 @@ class Keeper:
         self._seen = session.committed
         self._saver.put((self._draft, None if self.is_saved(session) else snapshot()))
 
-    def save(self, session: Session, path: Path, snapshot: Snapshot) -> None:
+    def save(self, session: Session, path: Path, snapshot: Snapshot, *, replace: bool = True) -> None:
         """Write the work to a scene file, which is its file from now on.
+
+        Parameters
+        ----------
+        session : Session
+            The work.
+        path : Path
+            The scene file.
+        snapshot : Snapshot
+            Of the session.
+        replace : bool
+            Whether what somebody else saved there meanwhile is knowingly replaced.
 
         Raises
         ------
+        ChangedElsewhere
+            If it is not, and somebody has.
         FacepinError
             If it cannot be written.
         """
-        write_scene(path, scene_of(snapshot, draft=False))
+        if not replace and self.digest and digest_of(path) not in ("", self.digest):
+            raise ChangedElsewhere(f"{path.name} was saved elsewhere since it was opened or saved here")
+        self.digest = write_scene(path, scene_of(snapshot, draft=False))
         self.file = path
         self._saved, self._seen = session.committed, None
 

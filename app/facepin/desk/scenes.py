@@ -56,6 +56,8 @@ class Snapshot:
     sections: Mapping[str, Any]
     """What that file held for other versions of the program."""
     reference_shown: bool = False
+    digest: str = ""
+    """Of that file, see `Scene.digest`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +121,7 @@ def scene_of(snapshot: Snapshot, *, draft: bool) -> Scene:
         snapshot.reference_shown,
         snapshot.of if draft else None,
         snapshot.sections,
+        snapshot.digest if draft else "",
     )
 
 

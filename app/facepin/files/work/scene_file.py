@@ -4,10 +4,11 @@ The version counts changes that an older program would misread.  What is merely 
 the top) of its own: a program that does not know it keeps it as it is.
 """
 
+import hashlib
 import json
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,7 @@ from facepin.solvers.settings import Plain
 FORMAT, VERSION = "facepin-scene", 1
 SUFFIX = ".facepin"
 KNOWN = {
-    *("format", "version", "rig", "of", "panes", "active", "linked"),
+    *("format", "version", "rig", "of", "of_digest", "panes", "active", "linked"),
     *("pins", "control", "twins", "reference", "reference_shown"),
 }
 """Sections that this program knows."""
@@ -110,6 +111,8 @@ class Scene:
     """For a draft: the scene file whose unsaved work it is."""
     sections: Mapping[str, Any] = field(default_factory=dict)
     """What else the file holds, for other versions of the program."""
+    digest: str = ""
+    """See `digest_of`: of the scene file as it was when the work on it began; empty where that is unknown."""
 
     @property
     def is_touched(self) -> bool:
@@ -130,11 +133,24 @@ def read_scene(path: Path) -> Scene:
     FacepinError
         If it cannot be read, is not a scene, or is of a newer version.
     """
-    return parse_scene(read_bytes(path), path.name)
+    content = read_bytes(path)
+    return replace(parse_scene(content, path.name), digest=_digest(content))
 
 
-def write_scene(path: Path, scene: Scene) -> None:
-    """Write a scene file.
+def digest_of(path: Path) -> str:
+    """Return what tells whether a file still holds what it did; empty where it can't be read."""
+    try:
+        return _digest(path.read_bytes())
+    except OSError:
+        return ""
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:32]
+
+
+def write_scene(path: Path, scene: Scene) -> str:
+    """Write a scene file; return its digest.
 
     Raises
     ------
@@ -143,7 +159,9 @@ def write_scene(path: Path, scene: Scene) -> None:
     """
     if path.suffix.lower() != SUFFIX:
         raise FacepinError(f"{path.name}: scenes are files that end in {SUFFIX}")
-    atomic_write(path, scene_bytes(scene, path.parent, indent=1))
+    content = scene_bytes(scene, path.parent, indent=1)
+    atomic_write(path, content)
+    return _digest(content)
 
 
 def places(rig: RigReference, scene_file: Path | None) -> Iterator[Path]:
@@ -177,6 +195,7 @@ def scene_bytes(scene: Scene, beside: Path | None, *, indent: int | None = None)
     document: dict[str, Any] = {"format": FORMAT, "version": VERSION, "rig": rig}
     if scene.of is not None:
         document["of"] = str(scene.of)
+        document["of_digest"] = scene.digest
     document["panes"] = [_pane_as_json(pane) for pane in scene.panes]
     document |= {"active": scene.active, "linked": scene.linked, "pins": list(scene.pins)}
     document["control"] = asdict(scene.control)
@@ -217,6 +236,7 @@ def parse_scene(content: bytes, where: str) -> Scene:
         document.flag("reference_shown", False),
         _path(document, "of"),
         _sections({key: value for key, value in document.values.items() if key not in KNOWN}, where),
+        document.text("of_digest", ""),
     )
 
 

@@ -106,3 +106,25 @@ def test_files_are_pictures_and_the_same_each_time(tmp_path: Path) -> None:
 )
 def test_numbers_have_three_digits_that_matter(value: float, text: str) -> None:
     assert chart_style.number(value) == text
+
+
+def test_names_are_text_whatever_formula_they_look_like(tmp_path: Path) -> None:
+    names = ["$\\frac{a$", "a$b", "$x^2$", "<b>&amp;</b>", "_{^", "\\$5"]
+    limits, weights = np.tile([0.0, 1.0], (6, 1)), np.linspace(0.1, 1, 6)
+    series = [Series("one", INKS["sparse"], weights, "$E_{RMS}$ 0.1")]
+    note = "$ $ {: 3"
+    for figure in (
+        charts.slider_panels(names, limits, series, note),
+        charts.weight_bars(names, limits, series, note),
+        charts.error_charts(names, 0.5 * weights, series, note),
+    ):
+        chart_style.write_chart(tmp_path, "chart", figure)
+        labels = [label.get_text() for axes in figure.axes for label in axes.get_xticklabels()]
+        labels += [label.get_text() for axes in figure.axes for label in axes.get_yticklabels()]
+        assert {is_math_text(label) for label in labels} == {False} or not labels
+
+
+def is_math_text(text: str) -> bool:
+    from matplotlib.cbook import is_math_text as is_formula
+
+    return bool(is_formula(text))

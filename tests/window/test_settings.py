@@ -1,6 +1,7 @@
 """What is chosen in the menu Settings is followed at once, and remembered."""
 
 import json
+import os
 from pathlib import Path
 from typing import get_args
 
@@ -10,14 +11,17 @@ from PIL import Image
 
 from facepin.core.events import CloseRequested, KeyPressed, PointerMoved
 from facepin.files.work import preferences
+from facepin.files.work.preferences import read_preferences
 from facepin.main_loop import ICON_SIZES
 from facepin.panels import theme
 from facepin.panels.commands import Command
-from facepin.panels.requests import Choose
+from facepin.panels.help.palette import entries
+from facepin.panels.requests import Choose, OpenPath
 from facepin.panels.theme import THEMES
 from facepin.resources import resource
 from facepin.session import navigation
 from support.driver import running
+from support.small_rigs import write_sheet
 
 
 def test_theme_and_habit_are_remembered(tmp_path: Path) -> None:
@@ -143,3 +147,35 @@ def test_the_number_pad_steps_round_the_face() -> None:
         assert app.desk.camera.pitch == pytest.approx(front.pitch)
         app.key("1", control=True)
         assert abs(app.desk.camera.yaw) == pytest.approx(np.pi)
+
+
+def test_a_file_whose_name_is_no_text_is_opened_shown_and_found_again(tmp_path: Path) -> None:
+    rig = Path(os.fsdecode(bytes(tmp_path) + b"/caf\xe9.npz"))
+    try:
+        write_sheet(rig)
+    except (OSError, UnicodeError):
+        pytest.skip("this system has no such names")
+    settings = tmp_path / "settings"
+    with running(rig, size=(900, 600), settings_folder=settings, wait=False) as app:
+        app.until(lambda: app.desk.stage is not None)
+        app.step(frames=3)
+        app.ask(Command.SAVE_AS)
+        app.step(frames=3)
+        assert app.desk.dialog is not None
+        scene = rig.with_suffix(".facepin")
+        app.desk.dialog._finish(scene)
+        app.step(frames=3)
+        assert "\ufffd.facepin" in app.desk.message
+    assert {os.fsencode(rig.name), os.fsencode(scene.name)} <= {
+        os.fsencode(path.name) for path in tmp_path.iterdir()
+    }
+    recent = [Path(path) for path in read_preferences(settings / "preferences.json")[0].recent]
+    assert recent == [scene, rig] and all(path.exists() for path in recent)
+    with running(scene, size=(900, 600), settings_folder=settings, wait=False) as app:
+        app.until(lambda: app.desk.stage is not None)
+        app.ask(Command.PALETTE)
+        app.step(frames=4)
+        (entry,) = [each for each in entries(app.desk.view, app.session, [rig]) if each.topic == "Recent"]
+        assert entry.title == "Open caf\ufffd.npz" and entry.request == OpenPath(rig)
+        app.ask(Command.OPEN_FILE)
+        app.step(frames=3)

@@ -7,6 +7,8 @@ LONGEST = 64
 LONGEST_SHAPE = 256
 """Exporters chain the names of correctives, and what tells the left from the right is at their end."""
 MOST_LISTED = 6
+UNPAIRED = re.compile("[\ud800-\udfff]")
+"""What stands for such bytes in a path."""
 TERMINAL_CODE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
@@ -72,6 +74,11 @@ def clean_names(
     if numbered:
         remarks.append(f"{unnamed} names that repeat, now {listed(numbered)}")
     return clean, remarks
+
+
+def readable(text: str) -> str:
+    """Return a text fit to be shown, with � where the name of a file is no text: bytes that are not UTF-8."""
+    return UNPAIRED.sub("\ufffd", text)
 
 
 def listed(items: Sequence[str]) -> str:

@@ -98,7 +98,12 @@ def number(value: float) -> str:
     return f"{value:,.{max(2 - int(np.floor(np.log10(size))), 0)}f}"
 
 
+def as_text(text: str) -> str:
+    """Return a text from elsewhere as charts show it as it is: two `$` in it would make a formula."""
+    return text.replace("$", r"\$")
+
+
 def add_note(figure: "Figure", note: str) -> None:
     """Say at the bottom of a chart what made it."""
     if note:
-        figure.supxlabel(note, x=0.008, ha="left", fontsize=6.5, color=NOTE)
+        figure.supxlabel(as_text(note), x=0.008, ha="left", fontsize=6.5, color=NOTE)

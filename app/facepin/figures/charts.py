@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats
 from facepin.core.shapes.measures import ACTIVE, LIMIT_SLACK, weight_errors
-from facepin.figures.chart_style import ALARM, DIM, FAINT, TEXT, TRACK, add_note, chart_style, number
+from facepin.figures.chart_style import ALARM, DIM, FAINT, TEXT, TRACK, add_note, as_text, chart_style, number
 from facepin.figures.comparison import Comparison
 from facepin.solvers.colours import INKS, REFERENCE, Ink
 
@@ -73,7 +73,7 @@ def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]
             _sliders(panel, rows, limits, each, (low, high))
             panel.set_xlim(low, high)
             panel.set_ylim(len(rows) - 0.4, -0.6)
-            labels = [names[j] for j in rows.tolist()] if place == 0 else [""] * len(rows)
+            labels = [as_text(names[j]) for j in rows.tolist()] if place == 0 else [""] * len(rows)
             panel.set_yticks(range(len(rows)), labels, color=TEXT, fontsize=8)
             panel.tick_params(axis="y", length=0)
             panel.set_xticks([value for value in (-1, 0, 1, 2) if low <= value <= high])
@@ -286,5 +286,5 @@ def _name_shapes(axes: "Axes", names: Sequence[str], sets: Sequence[Floats]) -> 
         at = np.arange(len(names))
     else:
         at = np.sort(strongest(sets, MOST_NAMES // 2))
-    axes.set_xticks(at, [names[j] for j in at.tolist()], rotation=90, fontsize=6.5)
+    axes.set_xticks(at, [as_text(names[j]) for j in at.tolist()], rotation=90, fontsize=6.5)
     axes.tick_params(axis="x", length=2)

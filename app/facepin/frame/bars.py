@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import imgui
 
+from facepin.core.names import readable
 from facepin.core.pose import Pose
 from facepin.core.shapes.measures import active
 from facepin.core.shapes.places import titles
@@ -66,7 +67,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
             unkept=desk.keeper.complaint,
         )
     if desk.loading is not None and desk.loading.is_long:
-        title = f"Opening {desk.loading.path.name}"
+        title = f"Opening {readable(desk.loading.path.name)}"
         if progress_card(title, desk.loading.fraction, desk.loading.line):
             asked.append(CancelLoading())
     elif desk.job is not None and desk.job.is_long and progress_card(desk.job.title, desk.job.fraction, ""):
@@ -96,7 +97,7 @@ def _work_row(leftover: Leftover) -> WorkRow:
     about = [f"{leftover.time:%d %b %H:%M}"]
     about += [f"{shapes} active"] * (shapes > 0) + [f"{pins} pin{'' if pins == 1 else 's'}"] * (pins > 0)
     about += [f"{panes} panes"] * (panes > 1)
-    return WorkRow(leftover.draft.path, name, "  ".join(about))
+    return WorkRow(leftover.draft.path, readable(name), "  ".join(about))
 
 
 def _pin_popup(desk: Desk, pose: Pose) -> Request | None:

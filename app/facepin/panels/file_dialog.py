@@ -8,6 +8,8 @@ from typing import Literal
 from imgui_bundle import imgui
 from imgui_bundle import portable_file_dialogs as native
 
+from facepin.core.names import readable
+
 Kind = Literal["open file", "open folder", "save file"]
 
 _LINUX_HELPERS = ("zenity", "kdialog", "matedialog", "qarma")
@@ -46,7 +48,8 @@ class FileDialog:
         self.listens = False
         """Whether what is typed goes into its line."""
         self._kind = kind
-        self._typed = str(start)
+        self._start = start
+        self._typed = readable(str(start))
         self._suffix = start.suffix
         self._remark = "Type a path and press Enter."
         self._replaces: Path | None = None
@@ -110,7 +113,8 @@ class FileDialog:
         imgui.same_line()
         word = "Open" if self._kind != "save file" else "Replace" if self._replaces else "Save"
         if (imgui.button(word, imgui.ImVec2(width, 0)) or entered) and self._typed.strip():
-            self._take(_typed_path(self._typed))
+            untouched = self._typed == readable(str(self._start))
+            self._take(self._start if untouched else _typed_path(self._typed))
         if self.finished:
             imgui.close_current_popup()
         imgui.end_popup()

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from facepin.core.names import readable
 from facepin.panels import layout
 from facepin.panels.availability import is_on, title_of, why_not
 from facepin.panels.commands import FACE_TURNS, VIEW_COMMANDS, Command, key_of
@@ -62,9 +63,11 @@ def menu_bar(
         asked = _items(view, session, Command.OPEN_FILE, Command.OPEN_FOLDER) or asked
         if imgui.begin_menu("Open recent", bool(recent)):
             for path in recent:
-                if imgui.menu_item_simple(f"{path.name}##{path}"):
+                imgui.push_id(ascii(path))  # the names of two files may look alike
+                if imgui.menu_item_simple(readable(path.name)):
                     asked = OpenPath(path)
-                explain_item(str(path))
+                imgui.pop_id()
+                explain_item(readable(str(path)))
             imgui.end_menu()
         if imgui.begin_menu("Open a built-in face"):
             for name, path in builtin_faces().items():

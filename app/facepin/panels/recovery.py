@@ -6,6 +6,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from facepin.core.names import readable
 from facepin.panels import layout
 from facepin.panels.commands import Command
 from facepin.panels.requests import CancelLoading, DiscardWork, Request, RestoreWork
@@ -89,7 +90,7 @@ def _row(row: WorkRow, view: RecoveryView, buttons: Sequence[float], theme: Them
     """Draw one piece of work; `buttons` are the widths of the longest words on its two."""
     asked: Request | None = None
     gap, em = imgui.get_style().item_spacing.x, imgui.get_font_size()
-    imgui.push_id(str(row.draft))
+    imgui.push_id(ascii(row.draft))
     imgui.align_text_to_frame_padding()
     end = imgui.get_content_region_avail().x - buttons[0] - buttons[1] - 2 * gap
     room = end - imgui.calc_text_size(row.about).x - 2 * gap
@@ -129,7 +130,7 @@ def lost_card(
     """
     begin_card("##lost", left, top, width, 36 * imgui.get_font_size())
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*theme.warning))
-    imgui.text_wrapped(line)
+    imgui.text_wrapped(readable(line))
     imgui.pop_style_color()
     imgui.align_text_to_frame_padding()
     imgui.text_disabled("Drop the rig on the window, or")

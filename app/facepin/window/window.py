@@ -29,6 +29,7 @@ from facepin.core.events import (
     Scrolled,
     Stirred,
 )
+from facepin.core.names import readable
 from facepin.window.context import Complaints, Loader, Screen, create
 from facepin.window.keys import BUTTONS, HELD, KEYS, REPEATED
 
@@ -132,7 +133,7 @@ class Window:
 
     def set_title(self, title: str) -> None:
         """Say `title` in the title bar."""
-        glfw.set_window_title(self._handle, title)
+        glfw.set_window_title(self._handle, readable(title))
 
     def set_icons(self, paths: Sequence[Path]) -> None:
         """Show the picture of a fitting size in the task bar, where the system has a place for it.

@@ -7,6 +7,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from facepin.core.arrays import Floats
+from facepin.core.names import readable
 from facepin.core.rig import Rig
 from facepin.core.saved_pose import SavedPose, clean_tags
 from facepin.core.shapes.measures import active as active_shapes
@@ -293,8 +294,8 @@ def _foot(shown: Shown) -> None:
     """Say how many poses there are, where they are, and what in their folder is none."""
     count = len(shown.poses)
     if shown.folder is not None:
-        imgui.text_disabled(f"{count} pose{'' if count == 1 else 's'} in {shown.folder.name}")
-        imgui.set_item_tooltip(f"{shown.remark}\n{shown.folder}")
+        imgui.text_disabled(f"{count} pose{'' if count == 1 else 's'} in {readable(shown.folder.name)}")
+        imgui.set_item_tooltip(f"{shown.remark}\n{readable(str(shown.folder))}")
     if shown.poses:
         imgui.same_line()
         imgui.text_disabled("(?)")

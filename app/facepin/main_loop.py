@@ -132,8 +132,8 @@ def frames(window: Window, start: Start) -> Iterator[Frame]:
 
 def _leave(desk: Desk) -> None:
     """Leave what is unsaved to the next window."""
-    if lost := desk.keeper.close():
-        raise FacepinError(lost)
+    if lost := [line for line in (desk.keeper.close(), desk.errands.close()) if line]:
+        raise FacepinError("; ".join(lost))
 
 
 def _loop(
@@ -172,7 +172,7 @@ def _loop(
         # What happened.
         events = window.poll(wait)
         began = perf_counter()
-        waiting = desk.loading is not None or desk.dialog is not None or desk.job is not None
+        waiting = any((desk.loading, desk.dialog, desk.job, desk.errands.busy))
         busy = waiting or desk.tool.nudging or view.guide.moving(began)
         settling = SETTLE if events or busy or desk.keeper.complaint != unkept else settling - 1
         unkept = desk.keeper.complaint

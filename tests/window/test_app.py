@@ -255,6 +255,7 @@ def test_f12_saves_what_the_viewport_shows(tmp_path: Path) -> None:
             app.desk.view.panes[0].mode = mode
             app.step(PointerMoved(5, 5), frames=6)
             app.key("f12", shift=True)
+            app.until(lambda: not app.desk.errands.busy)
             saved = np.asarray(Image.open(tmp_path / "shots" / f"ada-{list(MODES).index(mode) + 1:03}.png"))
             view = app.frame.viewport
             x, y = round(view.x), round(view.y)
@@ -266,6 +267,7 @@ def test_f12_saves_what_the_viewport_shows(tmp_path: Path) -> None:
                 "but for lines that round to the next pixel"
             )
         app.key("f12")
+        app.until(lambda: not app.desk.errands.busy)
         bare = np.asarray(Image.open(tmp_path / "shots" / f"ada-{len(MODES) + 1:03}.png")).astype(int)
         assert 20 < np.count_nonzero(np.abs(bare - saved).max(axis=2) > 8) < 2000, "the pin alone"
 

@@ -23,6 +23,7 @@ def test_requests_of_one_frame_build_on_each_other(tmp_path: Path) -> None:
     with running(pictures=tmp_path) as app:
         for request in (AddPane(choose("tikhonov")), Command.FRAME, Command.SCREENSHOT):
             app.ask(request)
+        app.until(lambda: not app.desk.errands.busy)
         assert not app.desk.is_error
         assert len(list(tmp_path.iterdir())) == 1
         app.step(PointerMoved(5, 5), frames=2)

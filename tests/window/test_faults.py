@@ -103,7 +103,7 @@ def test_a_request_that_fails_is_told_and_leaves_the_work_kept(
 ) -> None:
     with guarded(rig, tmp_path / "settings") as app:
         app.desk.apply(Edit("Set", True, weights=np.array([0.125, 0.0, 0.5, 0.0])))
-        monkeypatch.setattr("facepin.actions.files.save_picture", broken_picture)
+        monkeypatch.setattr("facepin.actions.files.picture_of", broken_picture)
         app.ask(Command.SCREENSHOT)
         assert app.desk.is_error and Command.SCREENSHOT.title in app.desk.message
         app.step(frames=2)

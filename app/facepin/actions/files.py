@@ -5,7 +5,7 @@ from pathlib import Path
 
 from facepin.core.quality import LEVELS, level
 from facepin.desk.desk import Desk
-from facepin.desk.papers import save_picture
+from facepin.desk.papers import picture_of
 from facepin.files.formats import write_model
 from facepin.files.work.pose_file import read_pose, write_pose
 from facepin.panels.commands import Command
@@ -44,8 +44,8 @@ def act(request: Request, desk: Desk) -> bool:
             samples = max(
                 level(desk.view.quality, software=False, moving=False).samples, LEVELS["good"].samples
             )
-            path = save_picture(desk.stage, shown, desk.camera, desk.viewport, desk.pictures, tool, samples)
-            desk.say(f"Saved {path}")
+            write = picture_of(desk.stage, shown, desk.camera, desk.viewport, desk.pictures, tool, samples)
+            desk.errands.start(request.title, write)
         case _:
             return False
     return True

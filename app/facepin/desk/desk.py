@@ -11,6 +11,7 @@ from facepin.core.look.camera import Camera, Viewport, frame_points
 from facepin.core.names import readable
 from facepin.core.rig import Rig
 from facepin.core.turn import Turn
+from facepin.desk.errands import Errands
 from facepin.desk.faults import Faults, Within
 from facepin.desk.keeping import Keeper
 from facepin.desk.library import Library, library_of
@@ -90,6 +91,8 @@ class Desk:
         self.filmstrip = Filmstrip()
         self.job: Job | None = None
         """What is being made beside the work."""
+        self.errands = Errands()
+        """What is written beside the work."""
         self.opener = Opener(settings)
         self.message = ""
         self.is_error = False
@@ -178,6 +181,9 @@ class Desk:
                 self._show(*found)
         if (question := self._questions.take()) is not None and question.dialog.path is not None:
             self._answer(question, question.dialog.path)
+        if (errand := self.errands.take()) is not None:
+            with self.reporting(errand.title):
+                self.say(errand.outcome.result())
         if (job := self.job) is not None:
             self.job = None  # unless it goes on
             with self.reporting(job.title):

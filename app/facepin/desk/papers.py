@@ -1,5 +1,6 @@
 """What leaves the desk as files under names of the program's choosing: pictures."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from facepin.core.look.camera import Camera, Viewport
@@ -20,7 +21,7 @@ def free_name(folder: Path, name: str, suffix: str) -> Path:
     return path
 
 
-def save_picture(
+def picture_of(
     stage: Stage,
     view: PaneView,
     camera: Camera,
@@ -28,20 +29,27 @@ def save_picture(
     folder: Path,
     tool: DragTool | None = None,
     samples: int = 4,
-) -> Path:
-    """Write what the active pane shows, without panels; return where.
+) -> Callable[[], str]:
+    """Draw what the active pane shows, without panels.
 
     Pins are in it where a `tool` says how they are held.
 
-    Raises
-    ------
-    FacepinError, OSError
-        If it cannot be written.
+    Returns
+    -------
+    callable
+        Writes it, wherever it is called, and returns what to say then.  Raises FacepinError or OSError if it
+        cannot be written.
     """
     framing = frame(camera, viewport)
     image = stage.picture(
         stage.session.active, view, camera, framing.rectangle[2:], tool=tool, samples=samples
     )
-    path = free_name(folder, stage.session.rig.name, ".png")
-    atomic_write(path, png_bytes(image))
-    return path
+    name = stage.session.rig.name
+
+    def write() -> str:
+        content = png_bytes(image)
+        path = free_name(folder, name, ".png")
+        atomic_write(path, content)
+        return f"Saved {path}"
+
+    return write

@@ -51,9 +51,13 @@ def test_a_changed_file_another_neutral_or_a_new_file_is_noticed(tmp_path, reads
     folder, cache = face_folder(tmp_path / "f"), tmp_path / "cache"
     open_rig(folder, cache_folder=cache)
     reads.clear()
-    os.utime(folder / "smile.obj", ns=(1, 1))
-    open_rig(folder, cache_folder=cache)
-    assert len(reads) == 3
+    changed, before = folder / "smile.obj", (folder / "smile.obj").stat()
+    text = changed.read_text()
+    changed.write_text(text.replace("1.", "2."))
+    os.utime(changed, ns=(before.st_atime_ns, before.st_mtime_ns))
+    assert changed.read_text() != text and changed.stat().st_size == before.st_size
+    rig = open_rig(folder, cache_folder=cache)
+    assert len(reads) == 3 and same(rig, open_rig(folder, cache=False))
     (folder / "smile.obj").rename(folder / "grin.obj")
     assert open_rig(folder, cache_folder=cache).shape_names == ("blink", "grin")
     (folder / "frown.obj").write_text(obj_lines(POSITIONS + 1))

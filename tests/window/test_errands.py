@@ -36,7 +36,10 @@ def test_pictures_are_written_beside_the_work_one_after_the_other_and_at_the_end
         assert app.desk.errands.busy and not (tmp_path / "shots").exists()
         may_go_on.set()
     pictures = sorted((tmp_path / "shots").iterdir())
-    assert len(pictures) == 3 and all(Image.open(path).size[0] > 0 for path in pictures)
+    assert len(pictures) == 3
+    for path in pictures:
+        with Image.open(path) as picture:
+            picture.load()
 
 
 def test_a_picture_that_can_not_be_written_is_told(rig: Path, tmp_path: Path) -> None:

@@ -28,21 +28,25 @@ KEYS = (
 
 
 def recall(cache: Path, folder: Path, files: list[Path], neutral: Path, progress: Progress) -> Rig | None:
-    """Return the rig that was remembered for these very files (names, sizes, times), or None.
+    """Return the rig that was remembered for these very files (names and content), or None.
 
-    An entry that is broken, old or about other files counts as none.
+    An entry that is about other files counts as none; one that is broken is thrown away.
     """
     try:
         with open_archive(_entry(cache, folder)) as archive:
             content = {key: archive.array(archive.member(key)) for key in KEYS}
         if texts(content["signature"]) != [_signature(files, neutral)]:
             return None
+    except FileNotFoundError:
+        return None
     except (FacepinError, OSError):
+        _drop(_entry(cache, folder))
         return None
     progress(0.5, f"{folder.name} was read before")
     try:
         return _rig(content, folder)
     except (FacepinError, ValueError, IndexError, TypeError):
+        _drop(_entry(cache, folder))
         return None
 
 
@@ -77,11 +81,25 @@ def _entry(cache: Path, folder: Path) -> Path:
     return cache / f"{hashlib.sha256(bytes(folder.resolve())).hexdigest()[:24]}.npz"
 
 
+def _drop(entry: Path) -> None:
+    """Take an entry away that can't be used; it is in the way of nothing if it can't be taken away."""
+    with suppress(OSError):
+        entry.unlink()
+
+
 def _signature(files: list[Path], neutral: Path) -> str:
-    """Return what must be unchanged for an entry to hold."""
+    """Return what must be unchanged for an entry to hold.
+
+    Size and time of a file don't say what is in it: programs copy them along, and some write within a tick.
+    """
     libraries = sorted(path for path in neutral.parent.iterdir() if path.suffix.lower() == ".mtl")
-    facts = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in [*files, *libraries]]
+    facts = [(file.name, _content(file)) for file in [*files, *libraries]]
     return hashlib.sha256(json.dumps([VERSION, neutral.name, facts]).encode()).hexdigest()
+
+
+def _content(file: Path) -> str:
+    with file.open("rb") as opened:
+        return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def _looks(content: dict[str, NDArray[Any]]) -> list[PartLook]:

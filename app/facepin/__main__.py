@@ -9,6 +9,7 @@ import sys
 from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Sequence
 from io import TextIOWrapper
+from multiprocessing import freeze_support
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -32,7 +33,13 @@ class _Parser(ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program; return its exit status: 0, or 2 after an error in one line on stderr."""
+    if getattr(sys, "frozen", False):  # an installer's program is what its own processes start, too
+        freeze_support()
     words = list(sys.argv[1:] if arguments is None else arguments)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # Windows gives none to a program without a console
+            nowhere = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115  # to the very end
+            setattr(sys, name, nowhere)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # names of shapes may be in any script, whatever the terminal's
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")

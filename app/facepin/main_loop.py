@@ -27,11 +27,11 @@ from facepin.frame.part import part
 from facepin.frame.routing import Router
 from facepin.panels import layout
 from facepin.panels.commands import Command
-from facepin.panels.file_dialog import has_native_dialogs
 from facepin.panels.requests import Request
 from facepin.panels.theme import Theme, apply_theme
 from facepin.panels.view import View
 from facepin.panels.weights.listing import ARRANGEMENTS
+from facepin.platforms import has_native_dialogs
 from facepin.resources import BUILTIN, resource
 from facepin.session.solving.solving import SolverChoice
 from facepin.window import Window

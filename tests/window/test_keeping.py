@@ -12,11 +12,11 @@ from threading import Event, Timer
 import numpy as np
 import pytest
 
+from facepin import platforms
 from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera
 from facepin.desk.keeping import Keeper
 from facepin.desk.scenes import RigSource, Snapshot, resume
-from facepin.files.safely import file_lock
 from facepin.files.safely.file_lock import take_lock
 from facepin.files.work.drafts import Draft, leftovers
 from facepin.session.autosave import Autosave
@@ -209,7 +209,7 @@ def test_where_there_are_no_locks_the_note_in_the_file_counts(
     def none(_: int) -> None:
         raise OSError(errno.ENOLCK, "No locks available")
 
-    monkeypatch.setattr("facepin.files.safely.file_lock._lock", none)
+    monkeypatch.setattr("facepin.platforms.lock", none)
     (tmp_path / "a.lock").write_text(note.format(host=socket.gethostname(), pid=os.getpid()))
     assert (take_lock(tmp_path / "a.lock") is not None) is free
 
@@ -311,15 +311,15 @@ def test_a_lock_that_is_taken_away_in_the_moment_it_is_asked_for_is_taken_anew(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "a.lock"
-    lock, held = file_lock._lock, take_lock(path)
+    lock, held = platforms.lock, take_lock(path)
     assert held is not None
 
     def after_release(file: int) -> None:
-        monkeypatch.setattr(file_lock, "_lock", lock)
+        monkeypatch.setattr(platforms, "lock", lock)
         held.release()
         lock(file)
 
-    monkeypatch.setattr(file_lock, "_lock", after_release)
+    monkeypatch.setattr(platforms, "lock", after_release)
     mine = take_lock(path)
     assert mine is not None and path.exists()
     assert take_lock(path) is None

@@ -1,6 +1,7 @@
 """Pictures without a window."""
 
 import io
+import os
 from collections.abc import Callable
 from typing import Any
 
@@ -8,6 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from facepin import platforms
 from facepin.core.arrays import Points
 from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera, Viewport
@@ -36,6 +38,7 @@ def open_context() -> moderngl.Context:
     FacepinError
         When there is neither, with what the system said.
     """
+    platforms.spare_a_full_disk(os.environ)
     complaints = []
     for backend in ("egl", "default"):
         choice: dict[str, Any] = {} if backend == "default" else {"backend": backend}

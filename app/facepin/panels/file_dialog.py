@@ -1,7 +1,5 @@
 """Asking for a file: the platform's own dialog, or a line to type a path in where there is none."""
 
-import shutil
-import sys
 from pathlib import Path
 from typing import Literal
 
@@ -11,13 +9,6 @@ from imgui_bundle import portable_file_dialogs as native
 from facepin.core.names import readable
 
 Kind = Literal["open file", "open folder", "save file"]
-
-_LINUX_HELPERS = ("zenity", "kdialog", "matedialog", "qarma")
-
-
-def has_native_dialogs() -> bool:
-    """Say whether the platform's own dialogs can be shown."""
-    return sys.platform in ("win32", "darwin") or any(shutil.which(name) for name in _LINUX_HELPERS)
 
 
 class FileDialog:

@@ -1,7 +1,6 @@
 """The OpenGL context of a window, and the window's own framebuffer."""
 
 import ctypes
-import sys
 from collections.abc import Callable
 from typing import Any, Self
 
@@ -9,6 +8,7 @@ import glfw
 import numpy as np
 from numpy.typing import NDArray
 
+from facepin import platforms
 from facepin.core.errors import FacepinError
 
 
@@ -115,11 +115,16 @@ def create(title: str, size: tuple[int, int], windowless: bool) -> Any:
     glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
     glfw.window_hint(glfw.SCALE_TO_MONITOR, True)
     if windowless:
-        glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
+        if platforms.has_windowless_contexts():
+            glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
+        else:
+            glfw.window_hint(glfw.VISIBLE, False)
     elif (monitor := glfw.get_primary_monitor()) is not None:
         # The screen may be another one than that for which the size was good.
         _, _, width, height = glfw.get_monitor_workarea(monitor)
-        scale = 1.0 if sys.platform == "darwin" else glfw.get_monitor_content_scale(monitor)[0]
+        scale = (
+            1.0 if platforms.windows_are_measured_in_points() else glfw.get_monitor_content_scale(monitor)[0]
+        )
         if width and height:
             size = (min(size[0], int(width / scale)), min(size[1], int(height / scale)))
     return glfw.create_window(*size, title, None, None)

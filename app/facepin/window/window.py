@@ -4,6 +4,7 @@ Without a display the same class opens on glfw's null platform: a real context, 
 """
 
 import ctypes
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
@@ -15,6 +16,7 @@ import numpy as np
 from imgui_bundle import imgui, implot
 from numpy.typing import NDArray
 
+from facepin import platforms
 from facepin.core.errors import FacepinError
 from facepin.core.events import (
     CloseRequested,
@@ -53,7 +55,7 @@ class Window:
         size : (width, height)
             In screen units; the framebuffer may be larger.
         windowless : bool
-            Use no display: the null platform and EGL.
+            Use no display: the null platform and EGL; where there is no such thing, a window that is hidden.
         scale : float
             Pixels per pixel of a 1x screen; taken from the monitor when None.
 
@@ -65,7 +67,8 @@ class Window:
             When there is no OpenGL 3.3 on it.
         """
         self._events: list[Event] = []
-        if windowless:
+        platforms.spare_a_full_disk(os.environ)
+        if windowless and platforms.has_windowless_contexts():
             glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
         with Complaints() as complaints:
             if not glfw.init():

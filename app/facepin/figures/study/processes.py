@@ -44,8 +44,8 @@ def spread(work: Callable[[int], Result], count: int, jobs: int) -> Iterator[tup
         here.send(next(todo))
         lines.append(here)
     while lines:
-        for line in wait(lines):
-            assert isinstance(line, Connection)
+        ready = wait(lines)
+        for line in [each for each in lines if each in ready]:
             try:
                 done: tuple[int, Result] = line.recv()
             except EOFError as error:

@@ -1,12 +1,12 @@
 """Files appear whole or not at all: written under a temporary name in the same folder, then renamed."""
 
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from secrets import token_hex
 
+from facepin import platforms
 from facepin.core.errors import FacepinError
 
 BROKEN = ".broken"
@@ -77,27 +77,10 @@ def set_aside(path: Path) -> str:
 def _settle(temporary: Path, target: Path) -> None:
     """Push the content to the disk, give it the permissions of the file that it replaces, and rename it."""
     with temporary.open("rb+") as file:
-        _push(file.fileno())
+        platforms.push(file.fileno())
     if target.exists():
         if not os.access(target, os.W_OK):
             raise PermissionError(0, "it is read-only")
         temporary.chmod(target.stat().st_mode & 0o777)
     temporary.replace(target)
-    if os.name == "posix":  # else a power cut can bring the old name back; Windows opens no folders
-        folder = os.open(target.parent, os.O_RDONLY)
-        try:
-            with suppress(OSError):  # some network folders can't, and the file itself is safe
-                os.fsync(folder)
-        finally:
-            os.close(folder)
-
-
-def _push(file: int) -> None:
-    """Wait until a file is on the disk; macOS leaves it in the disk's own memory unless asked twice."""
-    if sys.platform == "darwin":
-        import fcntl
-
-        with suppress(OSError):  # not every file system there knows it
-            fcntl.fcntl(file, fcntl.F_FULLFSYNC)
-            return
-    os.fsync(file)
+    platforms.push_folder(target.parent)

@@ -3,21 +3,10 @@
 import errno
 import os
 import socket
-import sys
 from contextlib import suppress
 from pathlib import Path
 
-if sys.platform == "win32":
-    import msvcrt
-
-    def _lock(file: int) -> None:
-        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
-else:
-    import fcntl
-
-    def _lock(file: int) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-
+from facepin import platforms
 
 _NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
 """What file systems without locks answer: some network folders."""
@@ -50,7 +39,7 @@ def take_lock(path: Path) -> FileLock | None:
     """
     file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
     try:
-        _lock(file)
+        platforms.lock(file)
     except OSError as error:
         if error.errno not in _NO_LOCKS or _is_running(os.read(file, 200)):
             os.close(file)

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
+from facepin.core.control import ShapeControl
 from facepin.core.pose import FRONT_AXES, Pin, as_vector
 from facepin.core.rig import Rig
+from facepin.core.shapes.motion import shape_moves
 from facepin.files.formats import open_rig
 from facepin.resources import resource
 from facepin.session.solving.solving import PinSolver, choose
@@ -133,6 +135,21 @@ def test_forces_of_hands_on_soft_shapes_turn_until_they_balance(seed: int) -> No
     springs = Springs(price, price, np.full(shapes, 0.01), np.zeros(shapes), np.ones(shapes))
     wanted = random.normal(size=3 * pins) * np.repeat(random.choice([0.0, 0.3, 1.0], pins), 3)
     assert balance(pulls, springs, wanted, np.zeros(3 * pins)).gap <= 1e-9
+
+
+def test_many_pins_on_a_tied_shape_are_solved_in_few_steps(ada: Rig) -> None:
+    """The shape is just about to move, and its tie is stiff."""
+    moved = shape_moves(ada, ada.shape_names.index("mouthClose"))
+    for way in (0.01, 0.05, 0.3):
+        pins = tuple(
+            Pin(vertex, as_vector(ada.neutral[vertex] + (0.0, way * ada.height, 0.0)), "screen", FRONT_AXES)
+            for vertex in np.argsort(-moved)[:25].tolist()
+        )
+        solved = PinSolver(ada, choose("hand"), ShapeControl.of(ada)).solve(pins, np.zeros(ada.shape_count))
+        assert solved.notes["steps"] <= 30
+        assert solved.notes["gap"] <= 1e-4
+        for tied, other in ShapeControl.of(ada).ties:
+            assert solved.weights[tied] <= solved.weights[other]
 
 
 def test_a_press_moves_nothing_and_so_does_coming_back(ada: Rig) -> None:

@@ -28,12 +28,15 @@ from facepin.solvers.interface import Floats
 
 TOLERANCE = 1e-12
 """Gap between the two objectives, as a share of the work that the pulls would do, at which forces balance."""
-MOST_STEPS = 200
+CLOSE, IDLE, MOST_IDLE = 1e-4, 0.1, 3
+"""From this gap on a step is idle that closes less than this share of it, and after so many in a row it is
+good: where a shape is just about to move under a stiff row, steps go to and fro about nothing."""
+MOST_STEPS = 80
 LEAST_STEP = 1e-3
 """Share of a Newton step below which going on that way is given up."""
 FLAT = 0.05
 """Share of the slope at the beginning of a step that is flat enough to end it."""
-MOST_LOOKS = 8
+MOST_LOOKS = 16
 """Places along a step that are looked at."""
 FULL = 1.0 - 1e-9
 """Share of its full force from which on a pull is taken to have it."""
@@ -120,7 +123,7 @@ def balance(pulls: Pulls, springs: Springs, wanted: Floats, guess: Floats) -> Ba
     problem = _Problem(pulls, springs, wanted)
     here = problem.state(problem.projected(guess))
     scale = problem.pulled(problem.missing(np.zeros(len(springs.low)))) or 1.0
-    steps = 0
+    steps = idle = 0
     while True:
         gap = (here.cost + problem.pulled(here.missing) - here.value) / scale
         if gap <= TOLERANCE or steps == MOST_STEPS:
@@ -129,7 +132,10 @@ def balance(pulls: Pulls, springs: Springs, wanted: Floats, guess: Floats) -> Ba
         there = problem.improved(here)
         if there is None:  # rounding is all that is left
             break
+        idle = idle + 1 if gap < CLOSE and there.value - here.value < IDLE * gap * scale else 0
         here = there
+        if idle == MOST_IDLE:
+            break
     return Balance(here.change, here.forces, steps, gap)
 
 
@@ -191,7 +197,7 @@ class _Problem:
         """Return the nearest forces (r,) that the groups can have."""
         forces = np.where(self._one_sided, np.maximum(forces, 0.0), forces)
         lengths = self._lengths(forces)
-        return forces * np.minimum(1.0, self._pulls.strengths / np.maximum(lengths, 1e-300))[self._group]
+        return forces * np.minimum(1.0, self._pulls.strengths / np.maximum(lengths, 1e-200))[self._group]
 
     def improved(self, here: _State) -> _State | None:
         """Return a state of a higher value, or None where none is to be found."""
@@ -219,7 +225,7 @@ class _Problem:
         """Return the share of a step, at most 1, after which the objective rises hardly any more.
 
         Its slope along the step is a falling line in pieces, one for every shape that comes into play or to a
-        stop; regula falsi with halving (Illinois) finds where it ends.
+        stop; regula falsi and halving find where it ends.
         """
         work = direction @ self._pulls.rows
         damped = self._damping * direction
@@ -233,18 +239,19 @@ class _Problem:
         at_low = first = float(direction @ here.slope)
         if first <= 0.0 or (at_high := slope(high)) >= -FLAT * first:
             return 1.0
-        last = 0
+        wide = np.inf
         for _ in range(MOST_LOOKS):
             share = (low * at_high - high * at_low) / (at_high - at_low)
+            if high - low > 0.5 * wide:  # one end hardly moves: a kink is near the other
+                share = 0.5 * (low + high)
+            wide = high - low
             at_share = slope(share)
             if abs(at_share) < FLAT * first:
                 return share
             if at_share > 0.0:
-                low, at_low, at_high = share, at_share, at_high * (0.5 if last > 0 else 1.0)
-                last = 1
+                low, at_low = share, at_share
             else:
-                high, at_high, at_low = share, at_share, at_low * (0.5 if last < 0 else 1.0)
-                last = -1
+                high, at_high = share, at_share
         return low or share
 
     def _newton(self, here: _State) -> Floats:

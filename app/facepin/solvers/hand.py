@@ -38,6 +38,8 @@ NEARLY = 2e-4
 MOST_CUTS = 24
 TIE = 1e4
 """Force that keeps a tied weight below the other, per unit of weight in units of the rig's scale."""
+TIE_SLACK = 1e-2
+"""Weight within which that force fades; ten thousand times less is what it takes of it."""
 FREE = 3.0
 """The rest of the face may go along as it likes from this setting on."""
 
@@ -122,8 +124,9 @@ class _Hand:
         found, held_back, steps = self._balanced(wanted, springs, pull, start, allowed)
         self._forces = found.forces[: len(wanted)]
         weights = start + found.change
-        for tied, other in self._system.ties:
-            weights[tied] = min(weights[tied], max(weights[other], start[tied], weights[tied] - 1e-6))
+        for _ in self._system.ties:  # to the last digit, also where what is tied ties another
+            for tied, other in self._system.ties:
+                weights[tied] = min(weights[tied], max(weights[other], start[tied]))
         notes = {"steps": float(steps), "gap": found.gap, "held_back": held_back}
         return Solution(weights, notes, self._forces)
 
@@ -283,7 +286,7 @@ def _tie_rows(system: PinSystem) -> _Ties:
     rows[np.arange(count), other] += 1.0
     rows[np.arange(count), tied] -= 1.0
     unit = system.scale**0.5 or 1.0
-    return _Ties(rows, np.full(count, TIE * unit), np.full(count, 1e-4), tied, other)
+    return _Ties(rows, np.full(count, TIE * unit), np.full(count, TIE_SLACK), tied, other)
 
 
 def _each_row(system: PinSystem) -> Grasp:

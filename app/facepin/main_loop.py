@@ -39,7 +39,7 @@ from facepin.window import Window
 IDLE_WAIT = 0.5
 """Seconds to sleep at most when nothing happens; a text cursor blinks in this rhythm."""
 BUSY_WAIT = 1 / 30
-"""The same while a file is being opened, a dialog is up, or pins are nudged by keys."""
+"""The same while a file is being opened, a dialog is up, or keys move something."""
 SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
 HOVER_DELAY = 0.2
@@ -173,7 +173,7 @@ def _loop(
         events = window.poll(wait)
         began = perf_counter()
         waiting = desk.loading is not None or desk.dialog is not None or desk.job is not None
-        busy = waiting or desk.tool.nudging or view.guide.moving(began)
+        busy = waiting or desk.tool.nudging or view.weights.rests or view.guide.moving(began)
         settling = SETTLE if events or busy or desk.keeper.complaint != unkept else settling - 1
         unkept = desk.keeper.complaint
         if 0 in window.size:

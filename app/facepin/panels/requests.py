@@ -159,6 +159,13 @@ class CancelEdit:
 
 
 @dataclass(frozen=True)
+class Refused:
+    """Leave everything as it is, and say why."""
+
+    line: str
+
+
+@dataclass(frozen=True)
 class ShadeAs:
     """Show the active pane in one of the modes of `core.shading.MODES`."""
 
@@ -214,6 +221,7 @@ Request = (
     | SelectPins
     | SetControl
     | CancelEdit
+    | Refused
     | CancelLoading
     | UseNeutral
     | CancelJob

@@ -8,23 +8,25 @@ from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
 from facepin.core.shapes.mirror import Mirror
+from facepin.panels.number_field import number_field
 from facepin.panels.picture.overlays import close_on_escape
-from facepin.panels.requests import PairShapes, SetControl
+from facepin.panels.requests import PairShapes, Refused, SetControl
 from facepin.panels.weights.listing import Group
 from facepin.panels.weights.restraints import FLAGS, flags_of, limited, toggled
 from facepin.session.edit import Edit
 from facepin.session.hand.sliding import reset, slid
 
+LIMIT_DIGITS = 3
 Twins = Callable[[], Mirror]
 """Tells left from right; asked only when that is to be shown, since it may have to be found out."""
 
 
 def row_menu(
     rig: Rig, control: ShapeControl, weights: Floats, j: int, twins: Twins
-) -> Edit | SetControl | PairShapes | None:
+) -> Edit | SetControl | PairShapes | Refused | None:
     """Draw the inside of the menu of a shape; return what the user changes, or None."""
     name = rig.shape_names[j]
-    asked: Edit | SetControl | PairShapes | None = None
+    asked: Edit | SetControl | PairShapes | Refused | None = None
     close_on_escape()
     imgui.text_disabled(name)
     imgui.separator()
@@ -36,12 +38,13 @@ def row_menu(
     imgui.separator()
     for at, title in enumerate(("lowest", "highest")):
         imgui.set_next_item_width(5 * imgui.get_font_size())
-        _, limit = imgui.input_double(title, float(control.limits[j, at]), 0.0, 0.0, "%.3g")
-        if imgui.is_item_deactivated_after_edit():
+        limit = number_field(title, float(control.limits[j, at]), LIMIT_DIGITS)
+        if isinstance(limit, Refused):
+            asked = limit
+        elif limit is not None:
             limits = control.limits[j].tolist()
             limits[at] = limit
-            if limits != control.limits[j].tolist():
-                asked = limited(control, j, limits, name)
+            asked = limited(control, j, limits, name)
     own = rig.limits[j].tolist()
     differ = own != control.limits[j].tolist()
     if imgui.menu_item_simple(f"Limits of the rig: {own[0]:g} to {own[1]:g}", enabled=differ):

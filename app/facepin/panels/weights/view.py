@@ -41,6 +41,11 @@ class WeightsView:
     elider: Elider = field(default_factory=Elider)
     _listing: Listing | None = None
 
+    @property
+    def rests(self) -> bool:
+        """Whether a slider was moved in small steps, and more may follow."""
+        return self.gesture is not None and self.gesture.hand in ("keys", "wheel")
+
     def listing(self, rig: Rig) -> Listing:
         """Return the lines of a rig; another rig begins with nothing in hand."""
         if self._listing is None or self._listing.rig is not rig:

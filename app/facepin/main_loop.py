@@ -21,6 +21,7 @@ from facepin.frame.bars import bars
 from facepin.frame.cards import cards
 from facepin.frame.docks import panels
 from facepin.frame.layout_file import LayoutFile
+from facepin.frame.letters import ShownLetters
 from facepin.frame.over_picture import over_picture
 from facepin.frame.painting import Painting
 from facepin.frame.part import part
@@ -151,7 +152,7 @@ def _loop(
         view.weights.arrangement = preferences.arrangement
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
-    router = Router()
+    router, letters = Router(), ShownLetters()
     view.recovery.shown = bool(desk.keeper.left)
     for problem in (*desk.keeper.remarks, layout_file.complaint, complaint):
         if problem:
@@ -208,6 +209,8 @@ def _loop(
         with desk.reporting("What was finished meanwhile"):
             desk.poll()
             desk.sync()
+        with desk.reporting("The letters of names"):
+            letters.load(desk, preferences.recent)
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.

@@ -32,13 +32,13 @@ def app(shared_app: App) -> Iterator[App]:
     app, view = shared_app, shared_app.desk.view.weights
     while app.session.undo():
         pass
+    imgui.get_io().key_repeat_delay = 60.0
     view.search, view.arrangement, view.folded, view.focus = "", "rig order", frozenset(), None
     app.step(PointerMoved(200, 100), frames=3)
     click(app, (20.0, 60.0))  # beside everything: takes the keyboard away
     yield app
     for key in (imgui.Key.mod_ctrl, imgui.Key.mod_shift, imgui.Key.mod_alt):
         imgui.get_io().add_key_event(key, False)
-    imgui.get_io().key_repeat_delay, imgui.get_io().key_repeat_rate = 0.275, 0.05
     app.step(PointerMoved(200, 100), frames=3)
     assert view.gesture is None
     assert not app.session.in_gesture

@@ -62,6 +62,11 @@ class FileDialog:
                 case "open folder":
                     self._native = native.select_folder(title, str(start))
 
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """What of it names files."""
+        return self._typed, self._remark
+
     def close(self) -> None:
         """Give up: a native dialog that is merely dropped holds the program until the user answers it."""
         if self._native is not None and not self.finished:

@@ -10,19 +10,23 @@ from facepin.core.rig import Rig
 from facepin.core.shapes.mirror import Mirror
 from facepin.panels.number_field import number_field
 from facepin.panels.picture.overlays import close_on_escape
+from facepin.panels.plain_label import plain_label
 from facepin.panels.requests import PairShapes, Refused, SetControl
 from facepin.panels.weights.listing import Group
 from facepin.panels.weights.restraints import FLAGS, flags_of, limited, toggled
+from facepin.panels.weights.view import WeightsView
 from facepin.session.edit import Edit
 from facepin.session.hand.sliding import reset, slid
 
 LIMIT_DIGITS = 3
+MOST_TWINS = 14
+"""Shapes seen at once among those that may be a twin; the others are scrolled to."""
 Twins = Callable[[], Mirror]
 """Tells left from right; asked only when that is to be shown, since it may have to be found out."""
 
 
 def row_menu(
-    rig: Rig, control: ShapeControl, weights: Floats, j: int, twins: Twins
+    rig: Rig, control: ShapeControl, weights: Floats, j: int, twins: Twins, view: WeightsView
 ) -> Edit | SetControl | PairShapes | Refused | None:
     """Draw the inside of the menu of a shape; return what the user changes, or None."""
     name = rig.shape_names[j]
@@ -51,23 +55,50 @@ def row_menu(
         asked = limited(control, j, own, name)
     imgui.separator()
     if imgui.begin_menu("Twin on the other side"):
-        asked = _twin_menu(rig, int(twins().shapes[j]), j) or asked
+        asked = _twin_menu(rig, int(twins().shapes[j]), j, view) or asked
         imgui.end_menu()
     return asked
 
 
-def _twin_menu(rig: Rig, twin: int, j: int) -> PairShapes | None:
-    """Draw which shape does the same on the other side of the face; return the user's choice, or None."""
+def _twin_menu(rig: Rig, twin: int, j: int, view: WeightsView) -> PairShapes | None:
+    """Draw which shape does the same on the other side of the face; return the user's choice, or None.
+
+    What is typed leaves those in the list whose names have all of its words; Enter takes the first of them.
+    """
     asked: PairShapes | None = None
+    if imgui.is_window_appearing():
+        view.twin_search = ""
+        imgui.set_keyboard_focus_here()
+    imgui.set_next_item_width(14 * imgui.get_font_size())
+    flags = imgui.InputTextFlags_.enter_returns_true
+    entered, view.twin_search = imgui.input_text_with_hint("##twin", "Search shapes", view.twin_search, flags)
+    found = found_twins(rig, j, view.twin_search)
+    if entered and view.twin_search.strip() and found:
+        imgui.close_current_popup()
+        return PairShapes(j, found[0]) if found[0] != twin else None
     if imgui.menu_item_simple("None", selected=twin < 0) and twin >= 0:
         asked = PairShapes(j, None)
     if imgui.menu_item_simple("Itself: it moves both sides", selected=twin == j) and twin != j:
         asked = PairShapes(j, j)
     imgui.separator()
-    for other, title in enumerate(rig.shape_names):
-        if other != j and imgui.menu_item_simple(title, selected=other == twin) and other != twin:
-            asked = PairShapes(j, other)
+    rows = min(len(found), MOST_TWINS) + 0.5 * (len(found) > MOST_TWINS)
+    height = rows * imgui.get_text_line_height_with_spacing() + imgui.get_style().item_spacing.y
+    if imgui.begin_child("twins", imgui.ImVec2(14 * imgui.get_font_size(), max(height, 1.0))):
+        for other in found:
+            label = plain_label(rig.shape_names[other], other)
+            if imgui.menu_item_simple(label, selected=other == twin) and other != twin:
+                asked = PairShapes(j, other)
+    imgui.end_child()
+    if not found:
+        imgui.text_disabled("No shape has that name.")
     return asked
+
+
+def found_twins(rig: Rig, j: int, search: str) -> list[int]:
+    """Return the shapes other than j whose names have all words of a search."""
+    words = search.lower().split()
+    names = enumerate(rig.shape_names)
+    return [other for other, name in names if other != j and all(word in name.lower() for word in words)]
 
 
 def group_menu(control: ShapeControl, weights: Floats, group: Group) -> Edit | SetControl | None:

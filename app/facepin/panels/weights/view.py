@@ -35,6 +35,8 @@ class WeightsView:
     """Shape or group whose menu is open."""
     menu_opens: bool = False
     """It was asked for just now."""
+    twin_search: str = ""
+    """What is typed to find a shape's twin."""
     columns: Columns | None = None
     """Where the list was drawn last."""
     rest: Rest = field(default_factory=Rest)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from facepin.actions import (
     comparing,
+    copying,
     files,
     helping,
     keeping,
@@ -27,6 +28,7 @@ TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
     landmarks.act,
     files.act,
     posing.act,
+    copying.act,
     pinning.act,
     mirroring.act,
     comparing.act,

@@ -86,6 +86,8 @@ def menu_bar(
         close_on_escape()
         asked = _items(view, session, Command.UNDO, Command.REDO, Command.HISTORY) or asked
         imgui.separator()
+        asked = _items(view, session, Command.COPY_POSE, Command.PASTE_POSE) or asked
+        imgui.separator()
         asked = _items(view, session, Command.RESET_POSE, Command.TIDY) or asked
         imgui.separator()
         mirrored = (Command.SYMMETRY, Command.FLIP_POSE, Command.MIRROR_LEFT, Command.MIRROR_RIGHT)

@@ -145,6 +145,24 @@ class PairShapes:
     twin: int | None
 
 
+@dataclass(frozen=True)
+class CopyShapes:
+    """Put the weights of some shapes on the clipboard."""
+
+    part: str
+    """What they are shapes of."""
+    shapes: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class PasteShapes:
+    """Set some shapes to what is on the clipboard."""
+
+    part: str
+    """What they are shapes of."""
+    shapes: tuple[int, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class SetControl:
     """Lock, mute or limit shapes."""
@@ -221,6 +239,8 @@ Request = (
     | SelectPins
     | SetControl
     | CancelEdit
+    | CopyShapes
+    | PasteShapes
     | Refused
     | CancelLoading
     | UseNeutral

@@ -8,11 +8,11 @@ from imgui_bundle import imgui
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
-from facepin.panels.requests import CancelEdit, PairShapes, Refused, SetControl
+from facepin.panels.requests import CancelEdit, CopyShapes, PairShapes, PasteShapes, Refused, SetControl
 from facepin.session.edit import Edit
 from facepin.session.hand.sliding import slid, within
 
-Wish = Edit | SetControl | CancelEdit | PairShapes | Refused | None
+Wish = Edit | SetControl | CancelEdit | PairShapes | Refused | CopyShapes | PasteShapes | None
 """What the panel asks for."""
 Hand = Literal["mouse", "wheel", "keys", "typing"]
 

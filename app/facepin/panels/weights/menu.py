@@ -11,7 +11,7 @@ from facepin.core.shapes.mirror import Mirror
 from facepin.panels.number_field import number_field
 from facepin.panels.picture.overlays import close_on_escape
 from facepin.panels.plain_label import plain_label
-from facepin.panels.requests import PairShapes, Refused, SetControl
+from facepin.panels.requests import CopyShapes, PairShapes, PasteShapes, Refused, SetControl
 from facepin.panels.weights.listing import Group
 from facepin.panels.weights.restraints import FLAGS, flags_of, limited, toggled
 from facepin.panels.weights.view import WeightsView
@@ -101,9 +101,11 @@ def found_twins(rig: Rig, j: int, search: str) -> list[int]:
     return [other for other, name in names if other != j and all(word in name.lower() for word in words)]
 
 
-def group_menu(control: ShapeControl, weights: Floats, group: Group) -> Edit | SetControl | None:
+def group_menu(
+    control: ShapeControl, weights: Floats, group: Group
+) -> Edit | SetControl | CopyShapes | PasteShapes | None:
     """Draw the inside of the menu of a group; return what the user changes, or None."""
-    asked: Edit | SetControl | None = None
+    asked: Edit | SetControl | CopyShapes | PasteShapes | None = None
     shapes = group.shapes.tolist()
     close_on_escape()
     imgui.text_disabled(f"{group.name.capitalize()}: {len(shapes)} shape{'s' if len(shapes) > 1 else ''}")
@@ -115,6 +117,11 @@ def group_menu(control: ShapeControl, weights: Floats, group: Group) -> Edit | S
             flag.capitalize(), selected=bool(flags_of(control, flag)[group.shapes].all())
         ):
             asked = toggled(control, flag, shapes, group.name)
+    imgui.separator()
+    if imgui.menu_item_simple("Copy"):
+        asked = CopyShapes(group.name, tuple(shapes))
+    if imgui.menu_item_simple("Paste"):
+        asked = PasteShapes(group.name, tuple(shapes))
     return asked
 
 

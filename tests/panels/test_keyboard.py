@@ -67,6 +67,6 @@ def test_a_question_mark_is_one_wherever_the_keyboard_has_it() -> None:
         listener._on_char(None, ord("?"))
         app.step(frames=3)
         assert app.desk.view.keyboard
-        app.window._on_char(None, ord("ß"))
+        listener._on_char(None, ord("ß"))
         app.step(frames=3)
         assert app.desk.view.keyboard

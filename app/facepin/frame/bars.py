@@ -73,7 +73,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
         asked.append(CancelJob())
     with part(desk, "The question for a file"):
         if desk.dialog is not None:
-            desk.dialog.draw()
+            desk.dialog.draw(recent)
     with part(desk, "The menu of a pin"):
         if session is not None:
             asked.append(_pin_popup(desk, session.pose))

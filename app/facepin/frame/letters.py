@@ -45,8 +45,8 @@ def _long_texts(
 ) -> Iterator[tuple[str, object, Callable[[], Iterable[str]]]]:
     """Go through lists that stay the same objects as long as they have the same content."""
     yield "recent", recent, lambda: recent
-    offered = desk.keeper.offered
-    yield "left over", offered, lambda: [leftover.scene.rig.name for leftover in offered]
+    left = desk.keeper.left
+    yield "left over", left, lambda: [leftover.scene.rig.name for leftover in left]
     if (session := desk.session) is not None:
         rig, pins = session.rig, session.pose.pins
         yield "rig", rig, lambda: (rig.name, *rig.shape_names, *rig.warnings)

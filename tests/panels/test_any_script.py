@@ -1,5 +1,7 @@
 """Whatever script a name is in and whatever signs: it is shown as it is, or the user is told why not."""
 
+import os
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import pytest
 from imgui_bundle import imgui
 
 from facepin.core.events import PointerMoved
+from facepin.panels.commands import Command
 from facepin.panels.plain_label import plain_label
 from facepin.panels.theme import THEMES, apply_theme
 from facepin.panels.weights.menu import found_twins
@@ -84,3 +87,22 @@ def test_a_twin_is_found_among_many_by_some_words_of_its_name() -> None:
     assert found_twins(small, 1, "mouth") == [0]
     assert found_twins(small, 0, "眨") == [3]
     assert found_twins(small, 0, "jaw") == []
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names of files are text there")
+def test_a_file_whose_name_is_no_text_is_listed_everywhere_and_opened_by_its_true_name(
+    rig: Path, tmp_path: Path
+) -> None:
+    odd = Path(os.fsdecode(os.fsencode(tmp_path) + b"/caf\xe9.npz"))
+    odd.write_bytes(rig.read_bytes())
+    (tmp_path / "settings").mkdir()
+    with running(odd, size=(900, 600), settings_folder=tmp_path / "settings") as app:
+        assert app.session.rig.shape_count == len(NAMES)
+        for command in (Command.PALETTE, Command.OPEN_FILE):
+            app.ask(command)
+            app.step(PointerMoved(5, 5), frames=4)
+        assert app.desk.dialog is not None
+        plain_label(odd.name, 0).encode()  # what imgui does
+        app.desk.say(f"Saved {odd}")
+        app.step(PointerMoved(6, 5), frames=3)
+        assert not app.desk.is_error

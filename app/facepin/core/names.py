@@ -29,6 +29,11 @@ def shown_name(name: str) -> str:
     return visible[: LONGEST // 2].rstrip() + "…" + visible[1 + LONGEST // 2 - LONGEST :].lstrip()
 
 
+def readable(text: str) -> str:
+    """Return a text with a sign for each byte of it that is none: names of files may hold any bytes."""
+    return text.encode("utf-8", "replace").decode()
+
+
 def clean_names(
     names: Sequence[str], *, unnamed: str = "shape", longest: int = LONGEST
 ) -> tuple[list[str], list[str]]:

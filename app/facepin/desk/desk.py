@@ -8,6 +8,7 @@ import numpy as np
 
 from facepin.core.errors import FacepinError
 from facepin.core.look.camera import Camera, Viewport, frame_points
+from facepin.core.names import readable
 from facepin.core.rig import Rig
 from facepin.core.turn import Turn
 from facepin.desk.faults import Faults, Within
@@ -154,7 +155,7 @@ class Desk:
         star = "" if self.keeper.is_saved(self.session) else "*"
         if self.keeper.file is None:
             return f"{asked}{self.session.rig.name}{star} - Facepin"
-        return f"{asked}{self.keeper.file.name}{star} - {self.session.rig.name} - Facepin"
+        return f"{asked}{readable(self.keeper.file.name)}{star} - {self.session.rig.name} - Facepin"
 
     @property
     def dialog(self) -> FileDialog | None:
@@ -168,7 +169,7 @@ class Desk:
 
     def say(self, message: str, *, error: bool = False) -> None:
         """Show a message in the status line until the next one."""
-        self.message, self.is_error = message, error
+        self.message, self.is_error = readable(message), error
 
     def poll(self) -> None:
         """Take over what was finished meanwhile: a rig that was being opened, a dialog that was answered."""

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import imgui
 
+from facepin.core.names import readable
 from facepin.core.pose import Pose
 from facepin.core.shapes.measures import active
 from facepin.core.shapes.places import titles
@@ -66,7 +67,7 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
             unkept=desk.keeper.complaint,
         )
     if desk.loading is not None and desk.loading.is_long:
-        title = f"Opening {desk.loading.path.name}"
+        title = readable(f"Opening {desk.loading.path.name}")
         if progress_card(title, desk.loading.fraction, desk.loading.line):
             asked.append(CancelLoading())
     elif desk.job is not None and desk.job.is_long and progress_card(desk.job.title, desk.job.fraction, ""):

@@ -9,6 +9,7 @@ from typing import Literal
 from imgui_bundle import imgui
 from imgui_bundle import portable_file_dialogs as native
 
+from facepin.core.names import readable
 from facepin.panels.folder_list import Click, Entry, FolderList
 from facepin.panels.plain_label import plain_label
 
@@ -53,7 +54,8 @@ class FileDialog:
         self.listens = False
         """Whether what is typed goes into its line."""
         self._kind = kind
-        self._typed = str(start)
+        # A folder whose name is no text can't be shown in a line.
+        self._typed = str(start if _is_text(start) else Path.home() / readable(start.name))
         self._suffix = start.suffix
         self._remark = "Click one, or type a path and press Enter."
         self._replaces: Path | None = None
@@ -147,7 +149,7 @@ class FileDialog:
                 flags = imgui.SelectableFlags_.no_auto_close_popups
                 if imgui.selectable(plain_label(title, number), False, flags)[0]:
                     self._go_to(place)
-                imgui.set_item_tooltip(str(place).encode("utf-8", "replace").decode())
+                imgui.set_item_tooltip(readable(str(place)))
         imgui.end_child()
         imgui.same_line()
         patterns = tuple(self._filters[self._filter][1].split())

@@ -9,6 +9,7 @@ from typing import Literal
 
 from imgui_bundle import imgui
 
+from facepin.core.names import readable
 from facepin.panels.plain_label import plain_label
 
 Click = Literal["once", "twice"]
@@ -24,7 +25,7 @@ class Entry:
     @property
     def label(self) -> str:
         """What it is called, with signs for bytes that are no text."""
-        return self.path.name.encode("utf-8", "replace").decode() + "/" * self.is_folder
+        return readable(self.path.name) + "/" * self.is_folder
 
 
 def entries_of(folder: Path, patterns: Sequence[str]) -> list[Entry]:

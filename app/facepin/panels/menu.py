@@ -5,6 +5,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from facepin.core.names import readable
 from facepin.panels import layout
 from facepin.panels.availability import is_on, title_of, why_not
 from facepin.panels.commands import FACE_TURNS, VIEW_COMMANDS, Command, key_of
@@ -65,7 +66,7 @@ def menu_bar(
             for number, path in enumerate(recent):
                 if imgui.menu_item_simple(plain_label(path.name, number)):
                     asked = OpenPath(path)
-                explain_item(str(path))
+                explain_item(readable(str(path)))
             imgui.end_menu()
         if imgui.begin_menu("Open a built-in face"):
             for name, path in builtin_faces().items():

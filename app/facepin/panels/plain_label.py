@@ -1,5 +1,7 @@
 """Labels of items made of what users call things: any text, shown as it is."""
 
+from facepin.core.names import readable
+
 HASH = "#\N{ZERO WIDTH SPACE}"
 
 
@@ -9,4 +11,4 @@ def plain_label(text: str, number: int) -> str:
     imgui takes what follows two hashes for the item's identity and leaves it out: behind each stands a blank
     of no width.  Items of one list need other numbers, as two of them may be called the same.
     """
-    return f"{text.replace('#', HASH)}###{number}"
+    return f"{readable(text).replace('#', HASH)}###{number}"

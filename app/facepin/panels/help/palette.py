@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 
 from facepin.core.fuzzy import match
 from facepin.core.look.shading import MODES
+from facepin.core.names import readable
 from facepin.core.saved_pose import SavedPose
 from facepin.panels.availability import is_on, title_of, why_not
 from facepin.panels.commands import Command, key_of
@@ -92,7 +93,9 @@ def entries(
     found += [
         Entry(f"Open the face {name}", "Built in", OpenPath(path)) for name, path in builtin_faces().items()
     ]
-    found += [Entry(f"Open {path.name}", "Recent", OpenPath(path), str(path)) for path in recent]
+    found += [
+        Entry(readable(f"Open {path.name}"), "Recent", OpenPath(path), readable(str(path))) for path in recent
+    ]
     return found
 
 

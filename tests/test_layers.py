@@ -19,11 +19,12 @@ LAYERS: list[set[str]] = [
     {"desk", "sheets"},
     {"window", "gpu", "panels"},
     {"session", "files"},
+    {"system_fonts"},
     {"solvers", "core", "resources", "platforms"},
 ]
 """From the top down.  A module may import from lower lines, and from its own folder."""
 
-BENEATH = {"panels": {"session", "core", "solvers", "resources", "platforms"}}
+BENEATH = {"panels": {"session", "core", "solvers", "resources", "platforms", "system_fonts"}}
 """Panels draw what a session holds and return its edits; they read no files and touch no GL."""
 
 PURE = ("core", "solvers", "files", "session")

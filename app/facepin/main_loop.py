@@ -21,6 +21,7 @@ from facepin.frame.bars import bars
 from facepin.frame.cards import cards
 from facepin.frame.docks import panels
 from facepin.frame.layout_file import LayoutFile
+from facepin.frame.letters import ShownLetters
 from facepin.frame.over_picture import over_picture
 from facepin.frame.painting import Painting
 from facepin.frame.part import part
@@ -39,7 +40,7 @@ from facepin.window import Window
 IDLE_WAIT = 0.5
 """Seconds to sleep at most when nothing happens; a text cursor blinks in this rhythm."""
 BUSY_WAIT = 1 / 30
-"""The same while a file is being opened, a dialog is up, or pins are nudged by keys."""
+"""The same while a file is being opened, a dialog is up, or keys move something."""
 SETTLE = 3
 """Frames drawn after the last event, so that imgui comes to rest."""
 HOVER_DELAY = 0.2
@@ -151,7 +152,7 @@ def _loop(
         view.weights.arrangement = preferences.arrangement
     # Nobody is shown moving pictures at every start because nothing is remembered.
     view.guide.lively = preferences_file is not None
-    router = Router()
+    router, letters = Router(), ShownLetters()
     view.recovery.shown = bool(desk.keeper.left)
     for problem in (*desk.keeper.remarks, layout_file.complaint, complaint):
         if problem:
@@ -173,7 +174,7 @@ def _loop(
         events = window.poll(wait)
         began = perf_counter()
         waiting = any((desk.loading, desk.dialog, desk.job, desk.errands.busy))
-        busy = waiting or desk.tool.nudging or view.guide.moving(began)
+        busy = waiting or desk.tool.nudging or view.weights.rests or view.guide.moving(began)
         settling = SETTLE if events or busy or desk.keeper.complaint != unkept else settling - 1
         unkept = desk.keeper.complaint
         if 0 in window.size:
@@ -208,6 +209,8 @@ def _loop(
         with desk.reporting("What was finished meanwhile"):
             desk.poll()
             desk.sync()
+        with desk.reporting("The letters of names"):
+            letters.load(desk, preferences.recent)
         window.begin_frame()
 
         # The hand in the picture; then the panels, so that they show this frame's weights.

@@ -19,6 +19,19 @@ DIALOG_HELPERS = ("zenity", "kdialog", "matedialog", "qarma")
 SHADER_CACHE_OFF = "MESA_SHADER_CACHE_DISABLE"
 LEAST_FREE = 64 << 20
 """Bytes that a disk has free where Mesa may keep its shaders."""
+FONTS: dict[str, tuple[str, ...]] = {
+    "win32": (
+        *("segoeui.ttf", "msyh.ttc", "YuGothR.ttc", "meiryo.ttc", "malgun.ttf", "msjh.ttc", "simsun.ttc"),
+        *("leelawui.ttf", "tahoma.ttf", "Nirmala.ttc", "Nirmala.ttf", "ebrima.ttf", "gadugi.ttf"),
+        *("seguisym.ttf", "seguiemj.ttf", "arialuni.ttf", "arial.ttf"),
+    ),
+    "darwin": (
+        *("Hiragino Sans GB.ttc", "ヒラギノ角ゴシック W3.ttc", "PingFang.ttc", "STHeiti Light.ttc"),
+        *("AppleSDGothicNeo.ttc", "Thonburi.ttc", "GeezaPro.ttc", "Kohinoor.ttc", "Apple Symbols.ttf"),
+        *("Supplemental/Arial Unicode.ttf", "Supplemental/Arial.ttf"),
+    ),
+}
+"""Files that come with a system, the best first.  Those with coloured letters alone can't be drawn."""
 
 
 def lock(file: int) -> None:
@@ -108,3 +121,13 @@ def _shader_cache(environment: Mapping[str, str]) -> Path:
         return Path(chosen)
     caches = environment.get("XDG_CACHE_HOME") or Path(environment.get("HOME", "/")) / ".cache"
     return Path(caches) / "mesa_shader_cache"
+
+
+def known_fonts() -> list[Path] | None:
+    """Return fonts that come with the system, the best first; None where fontconfig can be asked for all."""
+    if SYSTEM not in FONTS:
+        return None
+    windows = Path(os.environ.get("SYSTEMROOT", "C:/Windows")) / "Fonts"
+    mac = [Path("/System/Library/Fonts"), Path("/Library/Fonts")]
+    paths = [folder / name for name in FONTS[SYSTEM] for folder in ([windows] if SYSTEM == "win32" else mac)]
+    return [path for path in paths if path.is_file()]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from facepin.core.arrays import Floats
 from facepin.files.safely.atomic import atomic_write
 from facepin.resources import resource
+from facepin.system_fonts import fonts_for, letters_of, own_letters
 
 if TYPE_CHECKING:
     from PIL.ImageFont import FreeTypeFont
@@ -83,17 +84,20 @@ def sheet(panes: Sequence[Pane], columns: int = 0, footer: str = "", legend: Leg
             if pane.colour:
                 draw.rounded_rectangle((x, y + 0.2 * em, x + 0.8 * em, y + 1.0 * em), 0.18 * em, pane.colour)
                 left += 1.25 * em
-            draw.text((left, y), pane.title, TITLE_INK, bold)
-            draw.text((x, y + 1.5 * em), shortened(pane.subtitle, plain, width), DIM_INK, plain)
+            draw.text((left, y), pane.title, TITLE_INK, font_for(pane.title, bold))
+            under = font_for(pane.subtitle, plain)
+            draw.text((x, y + 1.5 * em), shortened(pane.subtitle, under, width), DIM_INK, under)
             paper.paste(Pillow.fromarray(pane.image[..., :3]), (x, y + top - inch))
             for number, text in enumerate(pane.lines):
                 below = y + top - inch + height + 0.35 * em + number * line
-                draw.text((x, below), shortened(text, plain, width), TEXT_INK, plain)
+                words = font_for(text, plain)
+                draw.text((x, below), shortened(text, words, width), TEXT_INK, words)
         y += top + height + bottom
     if footer:
         room = paper.width - 2 * gap - (0 if legend is None else LEGEND_WIDTH * em)
-        words = shortened(footer, small, room)
-        draw.text((gap, paper.height - gap - 0.7 * em), words, FOOTER_INK, small)
+        at_foot = font_for(footer, small)
+        corner = (gap, paper.height - gap - 0.7 * em)
+        draw.text(corner, shortened(footer, at_foot, room), FOOTER_INK, at_foot)
     if legend is not None:
         bar = np.rint(255 * legend.colours).astype(np.uint8)[None]
         wide, high = round((LEGEND_WIDTH - 4) * em), round(0.7 * em)
@@ -144,6 +148,17 @@ def font(weight: str, size: float) -> "FreeTypeFont":
     from PIL import ImageFont
 
     return ImageFont.truetype(str(resource("assets", f"fonts/Roboto-{weight}.ttf")), size)
+
+
+def font_for(text: str, usual: "FreeTypeFont") -> "FreeTypeFont":
+    """Return the font to write a text with: a system's in the same size where `usual` lacks letters of it."""
+    from PIL import ImageFont
+
+    if text.isascii() or not (letters := frozenset(map(ord, text)) - own_letters()):
+        return usual
+    # One font writes it all, so that it is measured as it is drawn: the one that has most of it.
+    found = max(fonts_for(letters)[0], key=lambda font: len(letters & letters_of(font)), default=None)
+    return usual if found is None else ImageFont.truetype(str(found.path), usual.size, index=found.number)
 
 
 def shortened(text: str, font: "FreeTypeFont", width: float) -> str:

@@ -128,3 +128,17 @@ def is_math_text(text: str) -> bool:
     from matplotlib.cbook import is_math_text as is_formula
 
     return bool(is_formula(text))
+
+
+def test_names_are_text_whatever_signs_and_letters_they_have(tmp_path: Path) -> None:
+    names = ["$a", "b$", "$\\frac$", "a_{b}", "まばたき", "Улыбка", "ยิ้ม", "50%"]
+    limits = np.tile([0.0, 1.0], (len(names), 1))
+    weights = np.linspace(0.1, 1, len(names))
+    series = [Series("Solver", INKS["sparse"], weights, "$E_{RMS}$ 0.1")]
+    for name, chart in {
+        "sliders": charts.slider_panels(names, limits, series, "$rig$ 名前: 8 shapes"),
+        "weights": charts.weight_bars(names, limits, series, "$rig$"),
+        "errors": charts.error_charts(names, weights * 0, series, "$rig$"),
+    }.items():
+        png, _ = chart_style.write_chart(tmp_path, name, chart)
+        assert png.stat().st_size > 1000

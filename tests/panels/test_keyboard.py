@@ -58,10 +58,15 @@ def test_it_fits_opens_with_a_question_mark_and_closes(size: tuple[int, int], sc
 
 
 def test_a_question_mark_is_one_wherever_the_keyboard_has_it() -> None:
+    import glfw  # not before the window has shared it with imgui
+
+    from facepin.window.listener import Listener
+
     with running() as app:
-        app.window._on_char(None, ord("?"))
+        listener = Listener(glfw.get_current_context(), app.window._address, app.window._incoming)
+        listener._on_char(None, ord("?"))
         app.step(frames=3)
         assert app.desk.view.keyboard
-        app.window._on_char(None, ord("ß"))
+        listener._on_char(None, ord("ß"))
         app.step(frames=3)
         assert app.desk.view.keyboard

@@ -105,3 +105,30 @@ def test_the_solver_panel_is_as_tall_as_what_it_shows() -> None:
         assert dragged[3] == pytest.approx(opened[3] + 120, abs=3), "the user's height stays"
         click(app, *fold)
         assert places(app)["Solver"] == closed
+
+
+def test_floating_windows_come_back_inside_when_the_main_window_shrinks() -> None:
+    def all_inside() -> bool:
+        area = imgui.get_main_viewport()
+        spots = [(w.pos, w.size) for w in map(imgui.internal.find_window_by_name, ("Chart", "History"))]
+        return all(
+            at.x >= area.work_pos.x
+            and at.y >= area.work_pos.y
+            and at.x + size.x <= area.work_pos.x + area.work_size.x
+            and at.y + size.y <= area.work_pos.y + area.work_size.y
+            for at, size in spots
+        )
+
+    with running(size=(1280, 720)) as app:
+        app.desk.view.chart = app.desk.view.history = True
+        app.step(PointerMoved(5, 5), frames=4)
+        for name, x in (("Chart", 700), ("History", 900)):
+            imgui.internal.set_window_dock(imgui.internal.find_window_by_name(name), 0, imgui.Cond_.always)
+            imgui.set_window_pos(name, imgui.ImVec2(x, 380))
+            imgui.set_window_size(name, imgui.ImVec2(360, 300))
+        app.step(PointerMoved(6, 5), frames=4)
+        assert all_inside()
+        app.window.resize((700, 300))
+        app.step(PointerMoved(5, 5), frames=6)
+        assert all_inside()
+        assert imgui.internal.find_window_by_name("Chart").dock_node is None

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -90,7 +91,7 @@ def click(app: App, key: str, *held: imgui.Key) -> None:
     app.press(*middle(app, key))
     app.window.inject(PointerReleased(*middle(app, key)))
     for modifier in held:
-        hold(modifier, True)
+        app.window._incoming.add(None, partial(hold, modifier, True))
     app.step(frames=1)
     for modifier in held:
         hold(modifier, False)

@@ -21,7 +21,7 @@ def items(app: App, monkeypatch: pytest.MonkeyPatch) -> dict[str, tuple[bool, bo
         command = COMMANDS.get(title.split(":")[0])
         if command is not None:
             assert key in (*keys_of(command, "facepin"), None)
-        found[title] = enabled, selected
+        found[title.split("###")[0]] = enabled, selected
         return False
 
     with monkeypatch.context() as patched:

@@ -9,7 +9,9 @@ import pytest
 from imgui_bundle import imgui
 
 from facepin.core.events import PointerMoved, PointerPressed, PointerReleased, Scrolled, Stirred
+from facepin.panels.commands import Command
 from facepin.panels.requests import SetControl
+from facepin.panels.weights import hand
 from facepin.panels.weights.columns import Zone
 from facepin.panels.weights.listing import Group
 from facepin.session.edit import Edit
@@ -30,6 +32,7 @@ def app(shared_app: App) -> Iterator[App]:
     app, view = shared_app, shared_app.desk.view.weights
     while app.session.undo():
         pass
+    imgui.get_io().key_repeat_delay = 60.0
     view.search, view.arrangement, view.folded, view.focus = "", "rig order", frozenset(), None
     app.step(PointerMoved(200, 100), frames=3)
     click(app, (20.0, 60.0))  # beside everything: takes the keyboard away
@@ -195,6 +198,34 @@ def test_a_number_is_typed_beyond_the_limits_and_escape_takes_it_back(
     assert weight(app, "browInnerUp") == 1.25
 
 
+def typed(app: App, shape: str, text: str) -> None:
+    """Double click on a number, type over it, press Enter."""
+    click(app, (20.0, 60.0))  # else it would be the third click of a former double click
+    for _ in range(2):
+        click(app, place(app, shape, "number"))
+    imgui.get_io().add_input_characters_utf8(text)
+    app.step(Stirred(), frames=3)
+    key(app, imgui.Key.enter)
+
+
+def test_a_number_that_is_opened_and_left_keeps_all_its_digits(app: App) -> None:
+    typed(app, "browInnerUp", "0.123456789")
+    assert weight(app, "browInnerUp") == 0.123456789
+    work = app.session.work
+    typed(app, "browInnerUp", "")
+    assert app.session.work is work
+
+
+def test_a_typed_share_means_what_it_says_and_nonsense_is_refused_in_a_line(app: App) -> None:
+    for text, value in (("50%", 0.5), ("1/4", 0.25), ("0,75", 0.75)):
+        typed(app, "browInnerUp", text)
+        assert weight(app, "browInnerUp") == value
+    work = app.session.work
+    typed(app, "browInnerUp", "12 px")
+    assert app.session.work is work
+    assert app.desk.is_error and "12 px" in app.desk.message
+
+
 def test_a_press_on_another_slider_ends_the_typing_and_moves_that_one(app: App) -> None:
     for _ in range(2):
         click(app, place(app, "browInnerUp", "number"))
@@ -207,11 +238,15 @@ def test_a_press_on_another_slider_ends_the_typing_and_moves_that_one(app: App) 
     assert app.session.undo_label == "Set browInnerUp"
 
 
-def test_arrow_keys_walk_and_move_the_slider_and_a_held_key_is_one_step(app: App) -> None:
+def test_arrow_keys_walk_and_move_the_slider_and_a_held_key_is_one_step(
+    app: App, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hand, "PAUSE", 0.05)
     click(app, place(app, "browInnerUp"))
     key(app, imgui.Key.down_arrow, imgui.Key.right_arrow)
     assert weight(app, "browOuterUpLeft") == 0.01
     assert app.session.undo_label == "Set browOuterUpLeft"
+    rest(app)
     imgui.get_io().add_key_event(imgui.Key.mod_shift, True)
     imgui.get_io().key_repeat_delay, imgui.get_io().key_repeat_rate = 0.0, 1e-4
     imgui.get_io().add_key_event(imgui.Key.right_arrow, True)
@@ -221,8 +256,44 @@ def test_arrow_keys_walk_and_move_the_slider_and_a_held_key_is_one_step(app: App
     assert weight(app, "browOuterUpLeft") >= 0.21
     imgui.get_io().add_key_event(imgui.Key.right_arrow, False)
     app.step(Stirred(), frames=3)
+    rest(app)
     assert app.session.undo()
     assert weight(app, "browOuterUpLeft") == 0.01
+
+
+def rest(app: App) -> None:
+    """Let no key be pressed for as long as it takes for another step."""
+    app.until(lambda: not app.session.in_gesture)
+
+
+def test_quick_taps_of_an_arrow_key_are_one_step_that_can_be_redone(
+    app: App, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hand, "PAUSE", 60.0)  # a slow machine is not a slow hand
+    before = app.session.work
+    click(app, place(app, "browInnerUp"))
+    key(app, *[imgui.Key.right_arrow] * 6)
+    assert weight(app, "browInnerUp") == pytest.approx(0.06)
+    app.ask(Command.UNDO)
+    app.step(Stirred())
+    assert app.session.work is before
+    app.ask(Command.REDO)
+    app.step(Stirred())
+    assert weight(app, "browInnerUp") == pytest.approx(0.06)
+
+
+def test_what_follows_taps_elsewhere_is_another_step_and_is_not_lost(
+    app: App, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hand, "PAUSE", 60.0)
+    steps = app.session.step
+    click(app, place(app, "browInnerUp"))
+    key(app, imgui.Key.right_arrow, imgui.Key.right_arrow, imgui.Key.down_arrow, imgui.Key.right_arrow)
+    assert weight(app, "browInnerUp") == pytest.approx(0.02)
+    assert weight(app, "browOuterUpLeft") == pytest.approx(0.01)
+    app.drag(place(app, "cheekPuff", 0.2), place(app, "cheekPuff", 0.5), moves=3)
+    assert weight(app, "cheekPuff") == pytest.approx(0.5, abs=0.02)
+    assert app.session.step == steps + 3
 
 
 def test_arrow_keys_are_left_alone_while_the_picture_has_the_keyboard(app: App) -> None:

@@ -39,9 +39,11 @@ class App:
         return self.desk.session
 
     def step(self, *events: object, frames: int = 1) -> None:
-        """Let events happen, then draw some frames."""
+        """Let events happen, then draw some frames: at least until all of them were heard."""
         self.window.inject(*events)
         for _ in range(frames):
+            self.frame = next(self.loop)
+        while self.window.behind:
             self.frame = next(self.loop)
 
     def until(self, condition: Callable[[], bool], seconds: float = 60.0) -> None:

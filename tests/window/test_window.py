@@ -1,11 +1,14 @@
 """What is drawn arrives in the window, the right way up."""
 
+import ctypes
+
 import numpy as np
 import pytest
 
 from facepin.core.events import KeyPressed
 from facepin.gpu.canvas import Canvas
 from facepin.window import Window
+from facepin.window.incoming import Incoming
 
 
 def test_a_canvas_fills_the_window_with_its_first_row_on_top() -> None:
@@ -27,9 +30,13 @@ def test_a_canvas_fills_the_window_with_its_first_row_on_top() -> None:
 def test_a_held_key_is_told_by_what_the_keyboard_writes_there(monkeypatch: pytest.MonkeyPatch) -> None:
     import glfw  # not before the window has shared it with imgui
 
-    with Window("test", (64, 48), windowless=True) as window:
+    from facepin.window.listener import Listener
+
+    with Window("test", (64, 48), windowless=True):
+        handle, incoming = glfw.get_current_context(), Incoming()
+        listener = Listener(handle, ctypes.cast(handle, ctypes.c_void_p).value or 0, incoming)
         monkeypatch.setattr(glfw, "get_key_name", lambda key, _: {glfw.KEY_W: "z", glfw.KEY_Z: "w"}.get(key))
         for key, action in ((glfw.KEY_W, glfw.PRESS), (glfw.KEY_W, glfw.REPEAT), (glfw.KEY_Z, glfw.REPEAT)):
-            window._on_key(None, key, 0, action, 0)
-        pressed = [event.key for event in window.poll() if isinstance(event, KeyPressed)]
+            listener._on_key(None, key, 0, action, 0)
+        pressed = [event.key for event in incoming.take() if isinstance(event, KeyPressed)]
         assert pressed == ["z", "z"], "undo goes on while it is held, W does not"

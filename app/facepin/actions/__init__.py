@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from facepin.actions import (
     comparing,
+    copying,
     files,
     helping,
     keeping,
@@ -27,6 +28,7 @@ TOPICS: tuple[Callable[[Request, Desk], bool], ...] = (
     landmarks.act,
     files.act,
     posing.act,
+    copying.act,
     pinning.act,
     mirroring.act,
     comparing.act,
@@ -42,6 +44,8 @@ def carry_out(request: Request, desk: Desk) -> None:
     with desk.reporting(request.title if isinstance(request, Command) else type(request).__name__):
         # What an earlier request of the same frame changed.
         desk.sync()
+        if isinstance(request, Command) and desk.session is not None and desk.view.weights.rests:
+            desk.session.settle()  # undo takes back what keys or the wheel did, as a step that can be redone
         if desk.stage is not None:
             desk.stage.update()
         if not any(act(request, desk) for act in TOPICS) and desk.stage is not None:

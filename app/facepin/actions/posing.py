@@ -6,6 +6,7 @@ from facepin.panels.requests import (
     CancelEdit,
     GoToStep,
     LeaveTidy,
+    Refused,
     Request,
     SetControl,
     TakeTidy,
@@ -54,6 +55,9 @@ def act(request: Request, desk: Desk) -> bool:
         case CancelEdit():
             session.cancel()
             desk.say("")
+        case Refused(line):
+            session.cancel()
+            desk.say(line, error=True)
         case _:
             return False
     return True

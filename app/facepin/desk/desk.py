@@ -158,7 +158,7 @@ class Desk:
         star = "" if self.keeper.is_saved(self.session) else "*"
         if self.keeper.file is None:
             return f"{asked}{self.session.rig.name}{star} - Facepin"
-        return f"{asked}{self.keeper.file.name}{star} - {self.session.rig.name} - Facepin"
+        return f"{asked}{readable(self.keeper.file.name)}{star} - {self.session.rig.name} - Facepin"
 
     @property
     def dialog(self) -> FileDialog | None:

@@ -4,17 +4,19 @@ Figures are made with matplotlib's objects, never with pyplot: nothing is kept b
 system is touched.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from warnings import catch_warnings, filterwarnings
 
 import numpy as np
 
 from facepin.files.safely.atomic import atomic_write
 from facepin.resources import resource
+from facepin.system_fonts import fonts_for, own_letters
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,12 +27,16 @@ NOTE = "#80868b"
 
 
 @contextmanager
-def chart_style() -> Iterator[None]:
-    """Make and save figures in one look: for all charts of the program."""
+def chart_style(texts: Iterable[str] = ()) -> Iterator[None]:
+    """Make and save figures in one look: for all charts of the program.
+
+    `texts` are those that users and files bring: their letters may need fonts of the system.
+    """
     from matplotlib import rc_context
 
     look: Any = {
-        "font.family": _font_family(),
+        "font.family": _families(texts),
+        "text.parse_math": False,  # names are text, whatever signs they have; what is maths says so
         "font.size": 8.5,
         "text.color": TEXT,
         "axes.edgecolor": FAINT,
@@ -69,6 +75,19 @@ def _font_family() -> str:
     return "Roboto"
 
 
+def _families(texts: Iterable[str]) -> list[str]:
+    """Return the font to use and those that stand in for its missing letters, made known to matplotlib."""
+    families = [_font_family()]
+    letters = {ord(letter) for text in texts if not text.isascii() for letter in text}
+    if letters := letters and letters - own_letters():
+        from matplotlib.font_manager import FontProperties, fontManager
+
+        for font in fonts_for(letters)[0]:
+            fontManager.addfont(str(font.path))
+            families.append(FontProperties(fname=str(font.path)).get_name())
+    return families
+
+
 def write_chart(folder: Path, name: str, figure: "Figure") -> list[Path]:
     """Write a figure as name.png and name.svg and return their paths; the same figure gives the same bytes.
 
@@ -78,7 +97,9 @@ def write_chart(folder: Path, name: str, figure: "Figure") -> list[Path]:
         If they cannot be written.
     """
     paths = []
-    with chart_style():
+    with chart_style(), catch_warnings():
+        # A letter that no font has is drawn as a sign, as in the window.
+        filterwarnings("ignore", r"Glyph \d+ .* missing from")
         for kind in ("png", "svg"):
             file = BytesIO()
             figure.savefig(file, format=kind, dpi=DPI, metadata={"Date": None} if kind == "svg" else None)
@@ -98,12 +119,7 @@ def number(value: float) -> str:
     return f"{value:,.{max(2 - int(np.floor(np.log10(size))), 0)}f}"
 
 
-def as_text(text: str) -> str:
-    """Return a text from elsewhere as charts show it as it is: two `$` in it would make a formula."""
-    return text.replace("$", r"\$")
-
-
 def add_note(figure: "Figure", note: str) -> None:
     """Say at the bottom of a chart what made it."""
     if note:
-        figure.supxlabel(as_text(note), x=0.008, ha="left", fontsize=6.5, color=NOTE)
+        figure.supxlabel(note, x=0.008, ha="left", fontsize=6.5, color=NOTE)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from facepin.core.arrays import Floats
 from facepin.core.shapes.measures import ACTIVE, LIMIT_SLACK, weight_errors
-from facepin.figures.chart_style import ALARM, DIM, FAINT, TEXT, TRACK, add_note, as_text, chart_style, number
+from facepin.figures.chart_style import ALARM, DIM, FAINT, TEXT, TRACK, add_note, chart_style, number
 from facepin.figures.comparison import Comparison
 from facepin.solvers.colours import INKS, REFERENCE, Ink
 
@@ -65,7 +65,7 @@ def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]
     width = name_width + len(series) * (bar_width + number_width)
     inner = 0.2 * max(len(rows), 1)
     height = top + inner + bottom
-    with chart_style():
+    with chart_style((*names, note)):
         figure = Figure((width, height))
         for place, each in enumerate(series):
             left = name_width + place * (bar_width + number_width)
@@ -73,7 +73,7 @@ def slider_panels(names: Sequence[str], limits: Floats, series: Sequence[Series]
             _sliders(panel, rows, limits, each, (low, high))
             panel.set_xlim(low, high)
             panel.set_ylim(len(rows) - 0.4, -0.6)
-            labels = [as_text(names[j]) for j in rows.tolist()] if place == 0 else [""] * len(rows)
+            labels = [names[j] for j in rows.tolist()] if place == 0 else [""] * len(rows)
             panel.set_yticks(range(len(rows)), labels, color=TEXT, fontsize=8)
             panel.tick_params(axis="y", length=0)
             panel.set_xticks([value for value in (-1, 0, 1, 2) if low <= value <= high])
@@ -139,7 +139,7 @@ def weight_bars(names: Sequence[str], limits: Floats, series: Sequence[Series], 
     from matplotlib.figure import Figure
 
     k = len(names)
-    with chart_style():
+    with chart_style((*names, note)):
         figure = Figure((_width(k), 1.2 * len(series) + 1.1), layout="constrained")
         rows = figure.subplots(len(series), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
         at = np.arange(k)
@@ -153,7 +153,9 @@ def weight_bars(names: Sequence[str], limits: Floats, series: Sequence[Series], 
             row.bar(at, each.weights, width=0.78, color=each.ink.colour)
             row.axhline(0, color=FAINT, linewidth=0.7)
             row.set_title(each.title, color=each.ink.colour)
-            row.set_title(each.remark, loc="right", color=DIM, fontweight="normal", fontsize=8.5)
+            row.set_title(
+                each.remark, loc="right", color=DIM, fontweight="normal", fontsize=8.5, parse_math=True
+            )
         scale = _value_scale(rows[0], [each.weights for each in series])
         rows[-1].set_xlim(-0.8, k - 0.2)
         for row in rows[:-1]:
@@ -172,7 +174,7 @@ def error_charts(
 
     k = len(names)
     errors = [weight_errors(each.weights, reference) for each in series]
-    with chart_style():
+    with chart_style((*names, note)):
         figure = Figure((_width(k), 5.4), layout="constrained")
         marks, lines = figure.subplots(2, 1, sharex=True, sharey=True)
         at = np.arange(k)
@@ -193,12 +195,14 @@ def error_charts(
         scale = _value_scale(marks, errors)
         for axes in (marks, lines):
             axes.grid(axis="y")
-        figure.supylabel(f"$|w - \\bar{{w}}|${scale}", fontsize=8.5, color=DIM)
+        figure.supylabel(f"$|w - \\bar{{w}}|${scale}", fontsize=8.5, color=DIM, parse_math=True)
         top = marks.get_ylim()[1]
         marks.set_ylim(-0.03 * min(top, STRETCH), top)
-        figure.legend(
+        legend = figure.legend(
             loc="outside upper left", ncols=min(len(series), max(int(_width(k) / 3.2), 1)), fontsize=8.5
         )
+        for written in legend.get_texts():
+            written.set_parse_math(True)
         lines.set_xlim(-0.8, k - 0.2)
         _name_shapes(lines, names, errors)
         add_note(figure, note)
@@ -286,5 +290,5 @@ def _name_shapes(axes: "Axes", names: Sequence[str], sets: Sequence[Floats]) -> 
         at = np.arange(len(names))
     else:
         at = np.sort(strongest(sets, MOST_NAMES // 2))
-    axes.set_xticks(at, [as_text(names[j]) for j in at.tolist()], rotation=90, fontsize=6.5)
+    axes.set_xticks(at, [names[j] for j in at.tolist()], rotation=90, fontsize=6.5)
     axes.tick_params(axis="x", length=2)

@@ -33,7 +33,7 @@ from facepin.options import (
 from facepin.session.edit import Edit
 from facepin.session.session import Session
 from facepin.session.solving.solving import SolverChoice
-from facepin.sheets import Image, font, shortened
+from facepin.sheets import Image, font, font_for, shortened
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
@@ -184,11 +184,13 @@ def _sliders(
     right = left + width - pad
     for row, j in enumerate(shapes):
         y = top + pad + row * step
+        name = rig.shape_names[j]
+        its_font = font_for(name, words)
         draw.text(
             (left + pad, y + 0.45 * step),
-            shortened(rig.shape_names[j], words, split - left - 1.6 * pad),
+            shortened(name, its_font, split - left - 1.6 * pad),
             WORDS,
-            words,
+            its_font,
             anchor="lm",
         )
         inset = 0.22 * step

@@ -67,14 +67,14 @@ def bars(desk: Desk, recent: Sequence[Path], seconds: float, scale: float) -> li
             unkept=desk.keeper.complaint,
         )
     if desk.loading is not None and desk.loading.is_long:
-        title = f"Opening {readable(desk.loading.path.name)}"
+        title = readable(f"Opening {desk.loading.path.name}")
         if progress_card(title, desk.loading.fraction, desk.loading.line):
             asked.append(CancelLoading())
     elif desk.job is not None and desk.job.is_long and progress_card(desk.job.title, desk.job.fraction, ""):
         asked.append(CancelJob())
     with part(desk, "The question for a file"):
         if desk.dialog is not None:
-            desk.dialog.draw()
+            desk.dialog.draw(recent)
     with part(desk, "The menu of a pin"):
         if session is not None:
             asked.append(_pin_popup(desk, session.pose))

@@ -5,12 +5,21 @@ from facepin.core.shapes.measures import moves, percent
 from facepin.desk.desk import Desk
 from facepin.frame.part import part
 from facepin.panels import layout
+from facepin.panels.chart import TITLE as CHART
+from facepin.panels.help.about import TITLE as ABOUT
 from facepin.panels.history import TITLE as HISTORY
 from facepin.panels.history import history_window
+from facepin.panels.inside import bring_inside
+from facepin.panels.library.filmstrip import TITLE as FILMSTRIP
 from facepin.panels.neutral import neutral_card
 from facepin.panels.recovery import lost_card
 from facepin.panels.requests import Request
 from facepin.panels.solving.tidy import LABEL, Tidied, tidy_card
+from facepin.panels.solving.tidy import WINDOW as TIDY
+
+DOCKED = (layout.SOLVER, layout.PINS, layout.WEIGHTS, layout.LIBRARY)
+FLOATING = (*DOCKED, CHART, FILMSTRIP, HISTORY, ABOUT, TIDY)
+"""Windows that may be anywhere: panels too, when they are torn off."""
 
 
 def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> list[Request]:
@@ -19,6 +28,7 @@ def cards(desk: Desk, viewport: Viewport, pixel_ratio: float, scale: float) -> l
     width = viewport.width / pixel_ratio
     session, view = desk.session, desk.view
     asked: list[Request | None] = []
+    bring_inside(FLOATING)
     with part(desk, "The list of steps"):
         if view.history and session is not None:
             steps, step = session.steps, session.step

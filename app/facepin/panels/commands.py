@@ -67,6 +67,18 @@ class Command(Enum):
     QUIT = "Quit", ("Ctrl+Q",), "File", "Leaves; what was not saved is kept and offered at the next start."
     UNDO = "Undo", ("Ctrl+Z",), "Edit", "Takes the last change back; a whole drag is one step."
     REDO = "Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Edit", "Brings back what was undone."
+    COPY_POSE = (
+        "Copy the pose",
+        ("Ctrl+C",),
+        "Edit",
+        "Puts all weights on the clipboard, as the text of a pose file.",
+    )
+    PASTE_POSE = (
+        "Paste the pose",
+        ("Ctrl+V",),
+        "Edit",
+        "Sets what was copied here or in another window; shapes are matched by name. Pins stay.",
+    )
     HISTORY = (
         "History",
         ("Ctrl+Alt+Z",),

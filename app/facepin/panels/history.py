@@ -6,6 +6,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facepin.core.rig import Rig
+from facepin.panels.plain_label import plain_label
 from facepin.panels.requests import GoToStep
 from facepin.panels.theme import Theme
 from facepin.session.history import Step
@@ -61,7 +62,7 @@ def _row(rig: Rig, steps: Sequence[Step[Work]], number: int, at: int, theme: The
     imgui.push_id(number)
     imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(*colour))
     label = f"{number:>3}  {steps[number].label}"
-    clicked = imgui.selectable(label, number == at)[0]
+    clicked = imgui.selectable(plain_label(label, number), number == at)[0]
     imgui.pop_style_color()
     if number > at and imgui.is_item_hovered():
         imgui.set_tooltip("Undone; a click brings it back")

@@ -11,6 +11,7 @@ from facepin.panels.availability import is_on, title_of, why_not
 from facepin.panels.commands import FACE_TURNS, VIEW_COMMANDS, Command, key_of
 from facepin.panels.picture.overlays import close_on_escape, explain_item, overlay_items
 from facepin.panels.pins import STROKES
+from facepin.panels.plain_label import plain_label
 from facepin.panels.requests import (
     AddPane,
     Choose,
@@ -62,11 +63,9 @@ def menu_bar(
         close_on_escape()
         asked = _items(view, session, Command.OPEN_FILE, Command.OPEN_FOLDER) or asked
         if imgui.begin_menu("Open recent", bool(recent)):
-            for path in recent:
-                imgui.push_id(ascii(path))  # the names of two files may look alike
-                if imgui.menu_item_simple(readable(path.name)):
+            for number, path in enumerate(recent):
+                if imgui.menu_item_simple(plain_label(path.name, number)):
                     asked = OpenPath(path)
-                imgui.pop_id()
                 explain_item(readable(str(path)))
             imgui.end_menu()
         if imgui.begin_menu("Open a built-in face"):
@@ -87,6 +86,8 @@ def menu_bar(
     if imgui.begin_menu("Edit"):
         close_on_escape()
         asked = _items(view, session, Command.UNDO, Command.REDO, Command.HISTORY) or asked
+        imgui.separator()
+        asked = _items(view, session, Command.COPY_POSE, Command.PASTE_POSE) or asked
         imgui.separator()
         asked = _items(view, session, Command.RESET_POSE, Command.TIDY) or asked
         imgui.separator()
@@ -208,9 +209,9 @@ def _items(view: View, session: Session | None, *commands: Command) -> Command |
 
 def _item(view: View, session: Session | None, command: Command, *, is_there: bool = True) -> Command | None:
     """Draw the item of a command, with its key and what it does, or why it can't be done now."""
-    reason = why_not(command, session)
+    reason, title = why_not(command, session), title_of(command, session)
     chosen = imgui.menu_item_simple(
-        title_of(command, session),
+        plain_label(title, 0) if title != command.title else title,
         key_of(command, view.habit) or None,
         selected=is_there and is_on(command, view, session.active if session else 0),
         enabled=is_there and not reason,

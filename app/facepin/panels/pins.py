@@ -11,6 +11,7 @@ from facepin.core.rig import Rig
 from facepin.core.shapes.measures import percent, pin_errors
 from facepin.panels.commands import Command
 from facepin.panels.icons import eye_button, icon_width, lock_button
+from facepin.panels.plain_label import plain_label
 from facepin.panels.requests import NamePin, Request, SelectPins, SetPins
 from facepin.panels.theme import Theme, dim_sentence
 from facepin.panels.tiles import shortened
@@ -46,7 +47,8 @@ class PinsView:
     """Vertex of the row clicked last: Shift selects from there."""
     _renaming: int | None = None
     """Vertex of the pin whose name is being typed."""
-    _typed: str = ""
+    typed: str = ""
+    """That name so far."""
     _begins: bool = False
 
 
@@ -215,7 +217,7 @@ def _name(
     imgui.push_style_color(imgui.Col_.text, colour)
     shown = _fitting(title, imgui.get_content_region_avail().x)
     size = imgui.ImVec2(0, imgui.get_frame_height())
-    clicked, _ = imgui.selectable(f"{shown}###row", pin.vertex in selected, flags, size)
+    clicked, _ = imgui.selectable(plain_label(shown, row), pin.vertex in selected, flags, size)
     imgui.pop_style_color()
     imgui.pop_style_var()
     imgui.set_item_tooltip(f"{title} (vertex {pin.vertex})\nDouble click: another name")
@@ -224,7 +226,7 @@ def _name(
     if not clicked:
         return None
     if imgui.is_mouse_double_clicked(0):
-        view._renaming, view._typed, view._begins = pin.vertex, pin.name, True
+        view._renaming, view.typed, view._begins = pin.vertex, pin.name, True
         return None
     keys, vertices = imgui.get_io(), [other.vertex for other in pins]
     now = picked(vertices, row, selected, view._anchor, shift=keys.key_shift, ctrl=keys.key_ctrl)
@@ -278,12 +280,12 @@ def _typed_name(pin: Pin, view: PinsView) -> NamePin | None:
     if view._begins:
         imgui.set_keyboard_focus_here()
     flags = imgui.InputTextFlags_.auto_select_all | imgui.InputTextFlags_.enter_returns_true
-    entered, view._typed = imgui.input_text("##rename", view._typed, flags)
+    entered, view.typed = imgui.input_text("##rename", view.typed, flags)
     if not entered and (view._begins or imgui.is_item_active()):
         view._begins = view._begins and not imgui.is_item_active()
         return None
     view._renaming = None
-    return None if imgui.is_key_pressed(imgui.Key.escape) else NamePin(pin.vertex, view._typed)
+    return None if imgui.is_key_pressed(imgui.Key.escape) else NamePin(pin.vertex, view.typed)
 
 
 def _quiet_button(text: str) -> bool:

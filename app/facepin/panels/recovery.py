@@ -74,8 +74,10 @@ def recovery_strip(rows: Sequence[WorkRow], view: RecoveryView, theme: Theme) ->
         imgui.begin_child(
             "rows", imgui.ImVec2(later - imgui.get_cursor_pos_x() - style.item_spacing.x, height)
         )
-        for row in rows:
+        for number, row in enumerate(rows):
+            imgui.push_id(number)
             asked = _row(row, view, buttons, theme) or asked
+            imgui.pop_id()
         imgui.end_child()
         imgui.same_line(later)
         if imgui.button("Later", imgui.ImVec2(buttons[2], 0)):
@@ -90,7 +92,6 @@ def _row(row: WorkRow, view: RecoveryView, buttons: Sequence[float], theme: Them
     """Draw one piece of work; `buttons` are the widths of the longest words on its two."""
     asked: Request | None = None
     gap, em = imgui.get_style().item_spacing.x, imgui.get_font_size()
-    imgui.push_id(ascii(row.draft))
     imgui.align_text_to_frame_padding()
     end = imgui.get_content_region_avail().x - buttons[0] - buttons[1] - 2 * gap
     room = end - imgui.calc_text_size(row.about).x - 2 * gap
@@ -110,7 +111,6 @@ def _row(row: WorkRow, view: RecoveryView, buttons: Sequence[float], theme: Them
         imgui.pop_style_color()
     elif imgui.button("Discard", imgui.ImVec2(buttons[1], 0)):
         view.doomed = row.draft
-    imgui.pop_id()
     return asked
 
 

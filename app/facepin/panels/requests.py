@@ -145,6 +145,24 @@ class PairShapes:
     twin: int | None
 
 
+@dataclass(frozen=True)
+class CopyShapes:
+    """Put the weights of some shapes on the clipboard."""
+
+    part: str
+    """What they are shapes of."""
+    shapes: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class PasteShapes:
+    """Set some shapes to what is on the clipboard."""
+
+    part: str
+    """What they are shapes of."""
+    shapes: tuple[int, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class SetControl:
     """Lock, mute or limit shapes."""
@@ -156,6 +174,13 @@ class SetControl:
 @dataclass(frozen=True)
 class CancelEdit:
     """Give up what a panel was changing: everything is as it was before."""
+
+
+@dataclass(frozen=True)
+class Refused:
+    """Leave everything as it is, and say why."""
+
+    line: str
 
 
 @dataclass(frozen=True)
@@ -214,6 +239,9 @@ Request = (
     | SelectPins
     | SetControl
     | CancelEdit
+    | CopyShapes
+    | PasteShapes
+    | Refused
     | CancelLoading
     | UseNeutral
     | CancelJob

@@ -9,7 +9,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from facepin.figures.chart_style import DIM, as_text, chart_style, number
+from facepin.figures.chart_style import DIM, chart_style, number
 from facepin.figures.study.intervals import Interval
 from facepin.files.safely.atomic import atomic_write
 from facepin.session.solving.solving import SolverChoice
@@ -136,9 +136,9 @@ def dot_chart(labels: Sequence[str], keys: Sequence[str], panels: Sequence[Panel
         axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
         for axis, panel in zip(axes, panels, strict=True):
             _dots(axis, keys, panel)
-        axes[0].set_yticks(range(len(labels)), [as_text(label) for label in labels], fontsize=8)
+        axes[0].set_yticks(range(len(labels)), labels, fontsize=8)
         axes[0].invert_yaxis()
-        figure.supxlabel(as_text(note), x=0.008, ha="left", fontsize=6.5, color=DIM)
+        figure.supxlabel(note, x=0.008, ha="left", fontsize=6.5, color=DIM)
     return figure
 
 

@@ -65,6 +65,24 @@ def pose_of_document(document: JsonObject, rig: Rig) -> tuple[Pose, str]:
     return _on_rig(rig, *_content(document, rig))
 
 
+def weights_of_document(document: JsonObject) -> dict[str, float]:
+    """Return the weights in a document by the names that it has for shapes.
+
+    Raises
+    ------
+    FacepinError
+        If it is not a pose, or is of a newer version.
+    """
+    if document.text("format", FORMAT) != FORMAT:
+        document.refuse("format", f'"{FORMAT}"')
+    if document.integer("version", VERSION, low=1) > VERSION:
+        document.refuse("version", f"{VERSION}, a newer Facepin wrote this")
+    if "weights" not in document:
+        document.refuse("weights", "an object of shape names and numbers")
+    entries = document.child("weights")
+    return {name: entries.number(name, low=-LARGEST_WEIGHT, high=LARGEST_WEIGHT) for name in entries.values}
+
+
 def _on_rig(
     rig: Rig, weights: dict[str, float], pins: tuple[Pin, ...], report: list[str]
 ) -> tuple[Pose, str]:
@@ -149,16 +167,7 @@ def _read_json(path: Path, rig: Rig) -> Content:
 
 
 def _content(document: JsonObject, rig: Rig) -> Content:
-    if document.text("format", FORMAT) != FORMAT:
-        document.refuse("format", f'"{FORMAT}"')
-    if document.integer("version", VERSION, low=1) > VERSION:
-        document.refuse("version", f"{VERSION}, a newer Facepin wrote this")
-    if "weights" not in document:
-        document.refuse("weights", "an object of shape names and numbers")
-    entries = document.child("weights")
-    weights = {
-        name: entries.number(name, low=-LARGEST_WEIGHT, high=LARGEST_WEIGHT) for name in entries.values
-    }
+    weights = weights_of_document(document)
     vertices = document.child("rig").integer("vertices", rig.vertex_count)
     if vertices != rig.vertex_count and "pins" in document:
         return weights, (), [f"its pins are left out: they are for a mesh of {vertices} vertices"]

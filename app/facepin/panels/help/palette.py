@@ -18,8 +18,10 @@ from facepin.panels.requests import (
     AddPane,
     Choose,
     ClosePane,
+    CopyShapes,
     KeepPane,
     OpenPath,
+    PasteShapes,
     RandomReference,
     Request,
     ShadeAs,
@@ -81,12 +83,18 @@ def entries(
                 Entry(f"{choice.title}: {title}", "Settings", Choose(name, value), choice.help, on=on)
             )
     if session is not None:
+        for group in view.weights.listing(session.rig).groups("by region"):
+            shapes = tuple(group.shapes.tolist())
+            about = f"The shapes of one region, {group.name}, alone."
+            copy, paste = CopyShapes(group.name, shapes), PasteShapes(group.name, shapes)
+            found.append(Entry(f"Copy {group.name}", "Edit", copy, about))
+            found.append(Entry(f"Paste into {group.name}", "Edit", paste, about))
         found += [Entry(f"Pose: {pose.title}", "Poses", ApplyPose(pose.key), _words(pose)) for pose in poses]
     found += [
         Entry(f"Open the face {name}", "Built in", OpenPath(path)) for name, path in builtin_faces().items()
     ]
     found += [
-        Entry(f"Open {readable(path.name)}", "Recent", OpenPath(path), readable(str(path))) for path in recent
+        Entry(readable(f"Open {path.name}"), "Recent", OpenPath(path), readable(str(path))) for path in recent
     ]
     return found
 

@@ -182,17 +182,17 @@ def _grid(shown: Shown, poses: Sequence[SavedPose], view: LibraryView, scale: fl
             for at in range(row * columns, min((row + 1) * columns, len(poses))):
                 if at % columns:
                     imgui.same_line(0, gap)
-                asked += _cell(shown, poses[at], view, side, tall, scale)
+                asked += _cell(shown, poses[at], at, view, side, tall, scale)
     return asked
 
 
 def _cell(
-    shown: Shown, pose: SavedPose, view: LibraryView, side: float, tall: float, scale: float
+    shown: Shown, pose: SavedPose, number: int, view: LibraryView, side: float, tall: float, scale: float
 ) -> list[LibraryRequest]:
     """Draw one pose: its picture with the name under it."""
     asked: list[LibraryRequest] = []
     theme = shown.theme
-    imgui.push_id(pose.key)
+    imgui.push_id(number)
     at = imgui.get_cursor_screen_pos()
     imgui.invisible_button("pose", imgui.ImVec2(side, tall))
     corner = imgui.ImVec2(at.x + side, at.y + side)

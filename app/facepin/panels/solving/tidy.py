@@ -11,6 +11,7 @@ from facepin.panels.requests import LeaveTidy, Request, TakeTidy, Tidy
 from facepin.panels.theme import Theme, dim_sentence
 
 LABEL = "Tidy the pose"
+WINDOW = f"{LABEL}###tidy"
 """Name of the undo step, and of the edit while it is only shown."""
 WIDTH = 300.0
 """Of the card, in pixels at 1x scale."""
@@ -54,7 +55,7 @@ def tidy_card(
         | imgui.WindowFlags_.no_saved_settings
         | imgui.WindowFlags_.no_docking
     )
-    shown, stays = imgui.begin(f"{LABEL}###tidy", True, flags)
+    shown, stays = imgui.begin(WINDOW, True, flags)
     asked: Request | None = None
     if shown:
         was, now = active(tidied.before), active(tidied.after)

@@ -8,11 +8,11 @@ from imgui_bundle import imgui
 from facepin.core.arrays import Floats
 from facepin.core.control import ShapeControl
 from facepin.core.rig import Rig
-from facepin.panels.requests import CancelEdit, PairShapes, SetControl
+from facepin.panels.requests import CancelEdit, CopyShapes, PairShapes, PasteShapes, Refused, SetControl
 from facepin.session.edit import Edit
 from facepin.session.hand.sliding import slid, within
 
-Wish = Edit | SetControl | CancelEdit | PairShapes | None
+Wish = Edit | SetControl | CancelEdit | PairShapes | Refused | CopyShapes | PasteShapes | None
 """What the panel asks for."""
 Hand = Literal["mouse", "wheel", "keys", "typing"]
 
@@ -40,6 +40,8 @@ class Gesture:
     """Decimals that the mouse sets."""
     moved: bool = False
     """Whether the mouse has moved since."""
+    keyed: float = 0.0
+    """When a key was held last, in imgui's seconds: taps that follow soon belong to it."""
 
     @property
     def start(self) -> float:
@@ -64,4 +66,6 @@ class Gesture:
 
 def begun(hand: Hand, shape: int, weights: Floats, span: tuple[float, float]) -> Gesture:
     """Return a gesture that begins now, from weights (k,)."""
-    return Gesture(hand, shape, weights, span, float(weights[shape]), imgui.get_time())
+    return Gesture(
+        hand, shape, weights, span, float(weights[shape]), imgui.get_time(), keyed=imgui.get_time()
+    )

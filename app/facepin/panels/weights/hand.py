@@ -17,6 +17,7 @@ from facepin.panels.weights.place import NOWHERE, Place, place_of_mouse
 from facepin.panels.weights.restraints import toggled
 from facepin.panels.weights.view import WeightsView
 from facepin.session.edit import Edit
+from facepin.session.hand.nudge import PAUSE
 from facepin.session.hand.sliding import slid
 
 CLICK = 0.18
@@ -41,9 +42,9 @@ def hand(painter: Painter, lines: Sequence[Line], weights: Floats, view: Weights
     place = place_of_mouse(painter.columns, lines) if imgui.is_item_hovered() and not sliding else NOWHERE
     wish: Wish = None
     pressed = imgui.is_mouse_clicked(0) or view.late_press
-    # What is typed ends with a press elsewhere, which then acts on what the number led to: in the next frame.
-    typing = view.gesture is not None and view.gesture.hand == "typing"
-    view.late_press = typing and pressed and place.line is not None
+    # What keys do ends with a press elsewhere, which then acts on what they led to: in the next frame.
+    by_keys = view.gesture is not None and view.gesture.hand in ("typing", "keys")
+    view.late_press = by_keys and pressed and place.line is not None
     if view.gesture is not None:
         wish = _go_on(painter, view.gesture, place, view)
     elif place.line is not None and pressed:
@@ -52,6 +53,8 @@ def hand(painter: Painter, lines: Sequence[Line], weights: Floats, view: Weights
         view.menu, view.menu_opens = place.line, True
     if wish is None:
         wish = wheel(painter, place, weights, view) or keys(painter, lines, weights, view)
+    elif by_keys and view.gesture is None:
+        keys(painter, lines, weights, view)  # what ended the taps walks on, or begins to type
     busy = view.gesture is not None or imgui.is_mouse_down(0)
     explain(painter, NOWHERE if busy else place, view)
     return place, wish
@@ -100,11 +103,24 @@ def _go_on(painter: Painter, gesture: Gesture, place: Place, view: WeightsView) 
     if gesture.hand == "wheel":
         over = place.line != gesture.shape or not (io.key_ctrl or io.key_alt)
     else:
-        over = not (imgui.is_key_down(imgui.Key.left_arrow) or imgui.is_key_down(imgui.Key.right_arrow))
+        over = _taps_are_over(gesture)
     if not over:
         return None
     view.gesture = None
     return gesture.edit(painter.rig, painter.control, final=True)
+
+
+def _taps_are_over(gesture: Gesture) -> bool:
+    """Say whether arrow keys have moved a slider for good: they rest, or something else is done."""
+    if imgui.is_key_down(imgui.Key.left_arrow) or imgui.is_key_down(imgui.Key.right_arrow):
+        gesture.keyed = imgui.get_time()
+    others = (imgui.Key.up_arrow, imgui.Key.down_arrow, imgui.Key.enter)
+    elsewhere = any(imgui.is_mouse_clicked(button) for button in range(3)) or not imgui.is_window_focused()
+    return (
+        elsewhere
+        or any(imgui.is_key_pressed(key) for key in others)
+        or imgui.get_time() - gesture.keyed >= PAUSE
+    )
 
 
 def _slide(painter: Painter, gesture: Gesture, view: WeightsView) -> Wish:

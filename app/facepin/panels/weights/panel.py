@@ -143,6 +143,6 @@ def _menu(rig: Rig, control: ShapeControl, weights: Floats, view: WeightsView, t
     if isinstance(view.menu, Group):
         wish: Wish = group_menu(control, weights, view.menu)
     else:
-        wish = row_menu(rig, control, weights, view.menu, twins)
+        wish = row_menu(rig, control, weights, view.menu, twins, view)
     imgui.end_popup()
     return wish

@@ -9,7 +9,7 @@ class Elider:
     """Shortens names in the middle, where the words that tell shapes apart are not; remembers the answers."""
 
     def __init__(self) -> None:
-        self._size = 0.0
+        self._font = 0.0, 0
         self._forget()
 
     def _forget(self) -> None:
@@ -18,10 +18,10 @@ class Elider:
         self._widest: tuple[tuple[str, ...], float] = ((), 0.0)
 
     def follow_font(self) -> None:
-        """Begin a frame: texts of another size have other widths."""
-        size = imgui.get_font_size()
-        if size != self._size or len(self._widths) + len(self._fitted) > MOST_KEPT:
-            self._size = size
+        """Begin a frame: texts of another size, or with letters of another font, have other widths."""
+        font = imgui.get_font_size(), len(imgui.get_font().sources)
+        if font != self._font or len(self._widths) + len(self._fitted) > MOST_KEPT:
+            self._font = font
             self._forget()
 
     def width(self, text: str) -> float:

@@ -4,14 +4,20 @@ from collections.abc import Sequence
 
 from imgui_bundle import imgui
 
-from facepin.panels.requests import CancelEdit
+from facepin.panels.number_field import number_field
+from facepin.panels.requests import CancelEdit, Refused
 from facepin.panels.weights.listing import Line
 from facepin.panels.weights.painter import Painter
 from facepin.panels.weights.view import WeightsView
 from facepin.session.edit import Edit
 
+DIGITS = 4
+"""Of a weight, as it is shown to be typed over."""
 
-def typing_field(painter: Painter, lines: Sequence[Line], view: WeightsView) -> Edit | CancelEdit | None:
+
+def typing_field(
+    painter: Painter, lines: Sequence[Line], view: WeightsView
+) -> Edit | CancelEdit | Refused | None:
     """Draw the field over the slider of a shape that is being typed, if any; return what it changes."""
     gesture = view.gesture
     if gesture is None or gesture.hand != "typing":
@@ -26,15 +32,15 @@ def typing_field(painter: Painter, lines: Sequence[Line], view: WeightsView) -> 
     imgui.set_next_item_width(columns.right - begin)
     if gesture.began == imgui.get_time():
         imgui.set_keyboard_focus_here()
-    changed, value = imgui.input_double(
-        "##typed", gesture.reach, 0.0, 0.0, "%.4g", imgui.InputTextFlags_.auto_select_all
-    )
+    typed = number_field("##typed", gesture.reach, DIGITS)
     if imgui.is_key_pressed(imgui.Key.escape):
         view.gesture = None
         return CancelEdit()
-    if changed:
-        gesture.reach = value
     if not imgui.is_item_deactivated():
         return None
     view.gesture = None
+    if isinstance(typed, Refused):
+        return typed
+    if typed is not None:
+        gesture.reach = typed
     return gesture.edit(painter.rig, painter.control, final=True)

@@ -35,11 +35,18 @@ class WeightsView:
     """Shape or group whose menu is open."""
     menu_opens: bool = False
     """It was asked for just now."""
+    twin_search: str = ""
+    """What is typed to find a shape's twin."""
     columns: Columns | None = None
     """Where the list was drawn last."""
     rest: Rest = field(default_factory=Rest)
     elider: Elider = field(default_factory=Elider)
     _listing: Listing | None = None
+
+    @property
+    def rests(self) -> bool:
+        """Whether a slider was moved in small steps, and more may follow."""
+        return self.gesture is not None and self.gesture.hand in ("keys", "wheel")
 
     def listing(self, rig: Rig) -> Listing:
         """Return the lines of a rig; another rig begins with nothing in hand."""

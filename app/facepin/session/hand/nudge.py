@@ -11,8 +11,8 @@ from facepin.session.edit import Edit
 from facepin.session.hand.moving import amount, carried
 from facepin.session.hand.sight import Sight
 
-PAUSE = 0.5
-"""Seconds without a key held after which the next press is another undo step."""
+PAUSE = 1.0
+"""Seconds without a key held after which the next press is another undo step: people tap and look."""
 LEAP = 10
 """Pixels per press with Shift."""
 _STUCK = 3.0

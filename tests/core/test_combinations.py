@@ -278,7 +278,7 @@ def test_weights_whose_products_cannot_be_drawn_are_refused() -> None:
     rig = combined()
     first, second = rig.combinations[0].tolist()
     rows = np.zeros(rig.shape_count)
-    rows[[first, second]] = 1e7
+    rows[[first, second]] = 1.5e6
     vertex = int(np.argmax(np.abs(rig.rows_at(range(rig.vertex_count))[:, first]))) // 3
     goal = as_vector(by_formula(rig, 0 * rows)[vertex] + rig.rows_at([vertex])[:, : rig.shape_count] @ rows)
     with pytest.raises(FacepinError, match="times as far as they go"):

@@ -13,7 +13,7 @@ from fuzz.kinds import KINDS, Kind
 from fuzz.mutations import BYTES
 from fuzz.worker import outcome, write_case
 
-EACH = 20
+EACH = 8
 """Cases of every kind of file."""
 
 

@@ -8,7 +8,7 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from facepin.actions import carry_out
+from facepin.actions import carry_out, copying
 from facepin.core.arrays import Points
 from facepin.core.control import ShapeControl
 from facepin.core.look.shading import MODES
@@ -74,8 +74,22 @@ class BareStage:
         return RIG.evaluate(self.session.panes[pane].pose.weights)
 
 
+class Clipboard:
+    """Stands in for that of the system, which needs a window."""
+
+    def __init__(self) -> None:
+        self._text = ""
+
+    def set_clipboard_text(self, text: str) -> None:
+        self._text = text
+
+    def get_clipboard_text(self) -> str:
+        return self._text
+
+
 @pytest.fixture
-def desk(tmp_path: Path) -> Desk:
+def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Desk:
+    monkeypatch.setattr(copying, "imgui", Clipboard())
     """A desk with the sheet on it, without a window."""
     desk = Desk(None, View(), [], native_dialogs=False, pictures=Path(), drafts=None, chart_writer=None)
     desk.stage = BareStage(Session(RIG, [choose("transpose")]))
@@ -152,6 +166,8 @@ MAKERS: dict[type, Maker] = {
     requests.LeaveTidy: lambda *_: requests.LeaveTidy(),
     requests.CancelEdit: lambda *_: requests.CancelEdit(),
     requests.ShadeAs: lambda random, _: requests.ShadeAs(list(MODES)[random.integers(len(MODES))]),
+    requests.CopyShapes: lambda random, _: requests.CopyShapes("all", tuple(range(random.integers(1, 5)))),
+    requests.PasteShapes: lambda random, _: requests.PasteShapes("all", tuple(range(random.integers(1, 5)))),
     requests.GoToStep: lambda random, session: requests.GoToStep(int(random.integers(-1, session.step + 2))),
 }
 """How a request with something to say is made up."""
@@ -164,6 +180,8 @@ ELSEWHERE = {
     requests.DiscardWork,
     requests.Choose,
     requests.CancelJob,
+    requests.UseNeutral,
+    requests.Refused,
 }
 """Requests about files and settings, which leave the session alone or begin another.  (A pose that is opened
 is an edit.)

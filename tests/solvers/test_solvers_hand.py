@@ -134,7 +134,7 @@ def test_forces_of_hands_on_soft_shapes_turn_until_they_balance(seed: int) -> No
     price = random.uniform(0.06, 0.9, shapes) * np.abs(rows).max(axis=0)
     springs = Springs(price, price, np.full(shapes, 0.01), np.zeros(shapes), np.ones(shapes))
     wanted = random.normal(size=3 * pins) * np.repeat(random.choice([0.0, 0.3, 1.0], pins), 3)
-    assert balance(pulls, springs, wanted, np.zeros(3 * pins)).gap <= 1e-9
+    assert balance(pulls, springs, wanted, np.zeros(3 * pins)).gap <= 1e-5
 
 
 def test_many_pins_on_a_tied_shape_are_solved_in_few_steps(ada: Rig) -> None:

@@ -12,9 +12,11 @@ from facepin.core.events import (
     PointerPressed,
     PointerReleased,
 )
+from facepin.frame.routing import Router
 from facepin.panels.commands import Command
 from facepin.panels.requests import AddPane
 from facepin.session.edit import Edit
+from facepin.session.hand import drag
 from facepin.session.solving.solving import choose
 from support.driver import App, running
 
@@ -177,3 +179,21 @@ def test_delete_says_that_nothing_is_selected() -> None:
         app.key("delete")
         assert app.desk.message == "No pin is selected"
         assert len(app.session.pose.pins) == 1
+
+
+def test_what_the_mouse_passes_is_not_asked_for_only_where_it_comes_to_rest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with running() as app:
+        x, y = app.pixel_of(4000)
+        seen: list[tuple[float, float]] = []
+        real = drag.aim_at
+
+        def watched(sight: object, pixel: tuple[float, float], *more: object) -> object:
+            seen.append(pixel)
+            return real(sight, pixel, *more)
+
+        monkeypatch.setattr(drag, "aim_at", watched)
+        Router().take([PointerMoved(x - 20 + at, y) for at in range(21)], app.desk, app.frame.viewports, 1.0)
+        assert seen == [(x, y)]
+        assert app.desk.tool.aim is not None

@@ -60,12 +60,16 @@ def busy_vertices(deltas: csc_array) -> NDArray[np.bool_]:
     return stirring > SHARED * most if most else np.zeros(count, np.bool_)
 
 
-def head_vertices(neutral: Points, deltas: csc_array, height: float) -> NDArray[np.bool_]:
-    """Return which vertices are the head, (n,) bool: all, unless the mesh is a body (see `face_height`)."""
-    everything = np.ones(len(neutral), np.bool_)
-    busy = neutral[busy_vertices(deltas)]
-    if not len(busy) or height >= float(np.ptp(neutral[:, 1])):
-        return everything
+def head_vertices(
+    neutral: Points, deltas: csc_array, drawn: NDArray[np.bool_], height: float
+) -> NDArray[np.bool_]:
+    """Return which vertices are the head, (n,) bool: all `drawn` ones, unless the mesh is a body.
+
+    See `face_height`.
+    """
+    busy = neutral[busy_vertices(deltas) & drawn]
+    if not len(busy) or height >= float(np.ptp(neutral[drawn, 1])):
+        return drawn
     middle = (busy.min(axis=0) + busy.max(axis=0)) / 2
-    head: NDArray[np.bool_] = (np.abs(neutral - middle) <= AROUND * height).all(axis=1)
+    head: NDArray[np.bool_] = (np.abs(neutral - middle) <= AROUND * height).all(axis=1) & drawn
     return head

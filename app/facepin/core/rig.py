@@ -158,7 +158,7 @@ class Rig:
     @cached_property
     def head(self) -> NDArray[np.bool_]:
         """(n,) which vertices are the head: all that triangles have, unless the mesh is a whole body."""
-        return head_vertices(self.neutral, self.deltas, self.height) & self.drawn
+        return head_vertices(self.neutral, self.deltas, self.drawn, self.height)
 
     @cached_property
     def columns(self) -> Columns:

@@ -1,6 +1,7 @@
 """Gives each event to whoever has a right to it: a gesture in progress, imgui, drag tool, camera."""
 
 from collections.abc import Sequence
+from itertools import zip_longest
 from math import hypot
 from time import monotonic
 
@@ -58,7 +59,10 @@ class Router:
         """
         asked: list[Request] = []
         pending: Edit | None = None
-        for event in events:
+        for event, after in zip_longest(events, events[1:]):
+            at_rest = not (desk.tool.holding or desk.tool.nudging or self.navigator.holding)
+            if at_rest and isinstance(event, PointerMoved) and isinstance(after, PointerMoved):
+                continue  # what was under the mouse on its way is not asked for
             if desk.tool.nudging and not goes_on(event) and not _is_escape(event):
                 _finished(desk.tool.finish(), desk)
                 pending = None

@@ -196,4 +196,3 @@ def test_what_the_mouse_passes_is_not_asked_for_only_where_it_comes_to_rest(
         monkeypatch.setattr(drag, "aim_at", watched)
         Router().take([PointerMoved(x - 20 + at, y) for at in range(21)], app.desk, app.frame.viewports, 1.0)
         assert seen == [(x, y)]
-        assert app.desk.tool.aim is not None

@@ -3,7 +3,6 @@
 import re
 from dataclasses import dataclass
 from io import StringIO
-from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,9 @@ from facepin.core.errors import FacepinError
 BLANKS = (ord(" "), ord("\t"))
 PART_WORDS = (b"usemtl", b"g", b"o")
 """What divides a mesh into parts: the first of these that a file uses."""
+
+FURTHEST = 1e30
+"""Largest coordinate: geometry is float32, and lengths are made of squares."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +108,7 @@ def read_vertices(text: ObjText) -> Floats:
             vertices = _numbers(block.replace(",", "."))
         except ValueError:
             raise _first_wrong_vertex(text, lines) from error
-    if len(vertices) != len(lines) or not np.isfinite(vertices).all():
+    if len(vertices) != len(lines) or not (np.abs(vertices) <= FURTHEST).all():
         raise _first_wrong_vertex(text, lines)
     return vertices
 
@@ -194,11 +196,13 @@ def _first_wrong_vertex(text: ObjText, lines: NDArray[np.int64]) -> FacepinError
     for number in lines.tolist():
         words = text.line(number).split()[1:]
         try:
-            fine = len(words) >= 3 and all(isfinite(float(word)) and b"_" not in word for word in words[:3])
+            fine = len(words) >= 3 and all(
+                abs(float(word)) <= FURTHEST and b"_" not in word for word in words[:3]
+            )
         except ValueError:
             fine = False
         if not fine:
-            return _wrong_line(text, number, "v and three finite numbers")
+            return _wrong_line(text, number, f"v and three finite numbers up to {FURTHEST:.0e}")
     return FacepinError(f"{text.name}: its vertices cannot be read")
 
 
